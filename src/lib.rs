@@ -1,0 +1,24 @@
+//! **gonio**: the virtual gonioreflectometer.
+//!
+//! It measures, on a computer, how one particle scatters light. A wavefront of rays is traced
+//! through a drop of real shape, with phase and polarisation, interference and diffraction, and
+//! comes out as a tabulated phase function. Spheres can also be solved exactly (Lorenz–Mie).
+//!
+//! Start reading at [`simulate`], the main path on one page; [`optics`] states every convention;
+//! [`phase_table`] is what all computation produces and all output reads.
+//!
+//! Floors of the house, top first (a module imports only from floors below its own):
+//! `cli` · `lee`, `batch` · `simulate` · `farfield` · `trace` · `plan`, `series`, `hdf5`,
+//! `compare`, `render`, `export` · `scene`, `phase_table` · `optics`, `medium`, `shape`, `color` ·
+//! `math`.
+
+pub mod math;
+
+pub mod medium;
+pub mod optics;
+pub mod shape;
+
+pub mod phase_table;
+pub mod scene;
+
+pub mod series;

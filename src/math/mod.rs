@@ -1,0 +1,1 @@
+//! Mathematics without physics: special functions, kernels, interpolation, quadrature.

@@ -1,0 +1,79 @@
+//! The amplitude scattering matrix of one direction, and the Mueller matrix that follows from it.
+
+use num_complex::Complex64;
+use std::ops::{Add, AddAssign, Mul};
+
+/// Amplitude scattering matrix `[[S2, S3], [S4, S1]]` (Bohren & Huffman 1983, eq. 3.12),
+/// dimensionless, absolute phase relative to a wave through the particle's centre.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AmplitudeMatrix {
+    /// Perpendicular in, perpendicular out.
+    pub s1: Complex64,
+    /// Parallel in, parallel out.
+    pub s2: Complex64,
+    /// Perpendicular in, parallel out.
+    pub s3: Complex64,
+    /// Parallel in, perpendicular out.
+    pub s4: Complex64,
+}
+
+impl AmplitudeMatrix {
+    /// `S11`: scattered power for unpolarised light, `k² dC_sca/dΩ`.
+    pub fn s11(&self) -> f64 {
+        0.5 * (self.s1.norm_sqr() + self.s2.norm_sqr() + self.s3.norm_sqr() + self.s4.norm_sqr())
+    }
+
+    /// The 4 × 4 Mueller matrix, rows by outgoing Stokes vector (Bohren & Huffman 1983, eq. 3.16).
+    pub fn mueller(&self) -> [[f64; 4]; 4] {
+        let Self { s1, s2, s3, s4 } = *self;
+        let (i1, i2, i3, i4) = (s1.norm_sqr(), s2.norm_sqr(), s3.norm_sqr(), s4.norm_sqr());
+        let re = |a: Complex64, b: Complex64| (a * b.conj()).re;
+        let im = |a: Complex64, b: Complex64| (a * b.conj()).im;
+        [
+            [
+                0.5 * (i1 + i2 + i3 + i4),
+                0.5 * (i2 - i1 + i4 - i3),
+                re(s2, s3) + re(s1, s4),
+                im(s2, s3) - im(s1, s4),
+            ],
+            [
+                0.5 * (i2 - i1 - i4 + i3),
+                0.5 * (i2 + i1 - i4 - i3),
+                re(s2, s3) - re(s1, s4),
+                im(s2, s3) + im(s1, s4),
+            ],
+            [
+                re(s2, s4) + re(s1, s3),
+                re(s2, s4) - re(s1, s3),
+                re(s1, s2) + re(s3, s4),
+                im(s2, s1) + im(s4, s3),
+            ],
+            [
+                im(s4, s2) + im(s1, s3),
+                im(s4, s2) - im(s1, s3),
+                im(s1, s2) - im(s3, s4),
+                re(s1, s2) - re(s3, s4),
+            ],
+        ]
+    }
+}
+
+impl Add for AmplitudeMatrix {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        Self { s1: self.s1 + o.s1, s2: self.s2 + o.s2, s3: self.s3 + o.s3, s4: self.s4 + o.s4 }
+    }
+}
+
+impl AddAssign for AmplitudeMatrix {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
+
+impl Mul<Complex64> for AmplitudeMatrix {
+    type Output = Self;
+    fn mul(self, f: Complex64) -> Self {
+        Self { s1: self.s1 * f, s2: self.s2 * f, s3: self.s3 * f, s4: self.s4 * f }
+    }
+}

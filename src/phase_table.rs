@@ -1,0 +1,177 @@
+//! `PhaseTable`: the narrow waist. Everything that computes scattering produces one, wavelength
+//! slab by wavelength slab; everything else (HDF5, pictures, reports, exports) reads nothing but it.
+
+use ndarray::{Array2, Array3};
+use num_complex::Complex64;
+
+/// Coordinates of a table. θ ascending in [0, π]; φ ascending in [0, 2π] (both ends may be there).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axes {
+    /// Wavelengths in vacuum, metres, in the order of the scene.
+    pub wavelength: Vec<f64>,
+    /// Scattering angles, radians.
+    pub theta: Vec<f64>,
+    /// Azimuths, radians. A single value when the scattering has no azimuth dependence
+    /// (`rotational_symmetry` in the header): the table then stands for all azimuths.
+    pub phi: Vec<f64>,
+}
+
+/// What is tabulated per direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The phase function of unpolarised light (element "11" alone), sr⁻¹.
+    PhaseFunction,
+    /// All 16 Mueller elements "11" … "44", row by row, scaled like the phase function, sr⁻¹.
+    Mueller,
+}
+
+impl Quantity {
+    /// Number of values per direction.
+    pub fn elements(self) -> usize {
+        match self {
+            Quantity::PhaseFunction => 1,
+            Quantity::Mueller => 16,
+        }
+    }
+}
+
+/// How the forward diffraction peak, often narrower than a sample, enters the table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ForwardPeak {
+    /// Where a cell is coarser than the peak its value is the mean over the cell: Σ P·ΔΩ = 1.
+    #[default]
+    CellAverage,
+    /// The value at the sample's direction.
+    Point,
+    /// Diffraction left out; its share of the cross-section is recorded.
+    Separate,
+}
+
+/// Where the light went that met the particle, as fractions of the power on its silhouette.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EnergyBudget {
+    /// Power that left after `p` chords, by order.
+    pub left_by_order: Vec<f64>,
+    /// Power absorbed along the chords.
+    pub absorbed: f64,
+    /// Power still inside after the last order because it was totally reflected.
+    pub totally_reflected: f64,
+    /// Power still inside after the last order otherwise.
+    pub truncated: f64,
+    /// What is missing to 1 (numerical; near zero).
+    pub residual: f64,
+}
+
+/// All that does not change from slab to slab.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableHeader {
+    pub axes: Axes,
+    pub quantity: Quantity,
+    pub forward_peak: ForwardPeak,
+    /// The scattering does not depend on azimuth; `axes.phi` has one value.
+    pub rotational_symmetry: bool,
+    /// `rays`, `mie` or `debye`.
+    pub method: String,
+    /// `sphere`, `spheroid`, `raindrop`.
+    pub shape: String,
+    /// Radius of the sphere of equal volume, metres.
+    pub radius: f64,
+    /// Sun's elevation above the horizon, radians.
+    pub sun_elevation: f64,
+    /// The resolved scene as TOML.
+    pub scene_toml: String,
+    /// The command line that made the table (empty when made by the library).
+    pub command_line: String,
+}
+
+/// One wavelength of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slab {
+    /// Wavelength in vacuum, metres.
+    pub wavelength: f64,
+    /// Index of the particle.
+    pub index: Complex64,
+    /// Values in sr⁻¹, shape (elements, θ, φ).
+    pub values: Array3<f32>,
+    /// Highest number of coalescing rays where the two-ray uniform formula does not hold
+    /// (0: everywhere fine), shape (θ, φ); absent where the method has none.
+    pub caustic_order: Option<Array2<u8>>,
+    /// Cross-sections, m².
+    pub scattering_cross_section: f64,
+    pub extinction_cross_section: f64,
+    /// Mean cosine of the scattering angle.
+    pub asymmetry: f64,
+    /// Absent for the exact series.
+    pub energy: Option<EnergyBudget>,
+    /// Σ P·ΔΩ over the samples before the forward peak was treated.
+    pub sum_before_peak: f64,
+    /// Share of the scattered power that is in the separated peak (`ForwardPeak::Separate`).
+    pub peak_share: f64,
+    /// Estimated relative error (method's own estimate).
+    pub error_estimate: f64,
+}
+
+/// A whole table in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhaseTable {
+    pub header: TableHeader,
+    /// One per wavelength, in the order of `header.axes.wavelength`.
+    pub slabs: Vec<Slab>,
+}
+
+impl Axes {
+    /// Solid angle (sr) that each sample stands for, shape (θ, φ): cells bounded by the midpoints
+    /// between samples, exact on the sphere; the outermost θ cells reach to the first and last
+    /// sample only. A φ axis that closes (first + 2π = last) gives half cells to both ends; one
+    /// that wraps (last + step = first + 2π) gives full cells; a single φ stands for 2π.
+    pub fn solid_angle(&self) -> Array2<f64> {
+        let theta = theta_weights(&self.theta);
+        let phi = phi_weights(&self.phi);
+        Array2::from_shape_fn((theta.len(), phi.len()), |(i, j)| theta[i] * phi[j])
+    }
+}
+
+/// `cos` of the cell's upper edge minus `cos` of its lower edge, per θ sample.
+fn theta_weights(theta: &[f64]) -> Vec<f64> {
+    let last = theta.len() - 1;
+    let edge = |i: usize| 0.5 * (theta[i] + theta[i + 1]);
+    (0..theta.len())
+        .map(|i| {
+            let low = if i == 0 { theta[0] } else { edge(i - 1) };
+            let high = if i == last { theta[last] } else { edge(i) };
+            // cos low - cos high without cancellation
+            2.0 * (0.5 * (low + high)).sin() * (0.5 * (high - low)).sin()
+        })
+        .collect()
+}
+
+/// Width in azimuth per φ sample.
+fn phi_weights(phi: &[f64]) -> Vec<f64> {
+    use std::f64::consts::TAU;
+    let count = phi.len();
+    if count == 1 {
+        return vec![TAU];
+    }
+    let span = phi[count - 1] - phi[0];
+    let last_step = phi[count - 1] - phi[count - 2];
+    let wraps = (span + last_step - TAU).abs() < 1e-9 * TAU;
+    (0..count)
+        .map(|j| {
+            let below = if j > 0 {
+                phi[j] - phi[j - 1]
+            } else if wraps {
+                phi[0] + TAU - phi[count - 1]
+            } else {
+                0.0
+            };
+            let above = if j + 1 < count {
+                phi[j + 1] - phi[j]
+            } else if wraps {
+                phi[0] + TAU - phi[count - 1]
+            } else {
+                0.0
+            };
+            0.5 * (below + above)
+        })
+        .collect()
+}

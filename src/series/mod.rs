@@ -1,0 +1,1 @@
+//! Exact series for the homogeneous sphere: Lorenz–Mie and its Debye expansion.
