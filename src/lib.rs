@@ -22,3 +22,5 @@ pub mod phase_table;
 pub mod scene;
 
 pub mod series;
+
+pub mod trace;

@@ -23,6 +23,8 @@ pub trait Scalar:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
+    /// Whether this is the real field.
+    const REAL: bool;
     /// A real number as this scalar.
     fn real(value: f64) -> Self;
     /// Principal square root.
@@ -38,6 +40,7 @@ pub trait Scalar:
 }
 
 impl Scalar for f64 {
+    const REAL: bool = true;
     fn real(value: f64) -> Self {
         value
     }
@@ -59,6 +62,7 @@ impl Scalar for f64 {
 }
 
 impl Scalar for Complex64 {
+    const REAL: bool = false;
     fn real(value: f64) -> Self {
         Complex64::new(value, 0.0)
     }

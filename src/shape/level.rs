@@ -72,8 +72,7 @@ impl Shape {
         let inward = -(tangent.normal.dot(direction));
         let curvature = tangent.curvature(direction);
         let guess = inward * 2.0 / (curvature + inward * inward);
-        let line = Line::new(self, from, direction);
-        line.far_root(guess, 2.0 * self.bounding_radius())
+        Line::new(self, from, direction).far_root(guess, 2.0 * self.bounding_radius())
     }
 
     /// Where the line `(u, v, t)` along +z first meets the surface: the coordinate `t`.
@@ -148,15 +147,8 @@ impl<'a, T: Scalar> Line<'a, T> {
 
     /// The first of the two roots about the point of greatest depth.
     fn near_root(&self, bound: f64) -> Option<T> {
-        let deepest = self.deepest(bound);
-        let (depth, _) = self.at(deepest);
-        if depth.re() > 0.0 {
-            return None;
-        }
-        // Second derivative by a difference of slopes: only a starting value.
-        let h = 1e-4;
-        let bend = (self.at(deepest + h).1 - self.at(deepest - h).1) / (2.0 * h);
-        let mut t = deepest - (-(depth * 2.0) / bend).root();
+        let (deepest, guess) = self.deepest()?;
+        let mut t = guess;
         let (mut low, mut high) = (-1.01 * bound, deepest.re());
         for _ in 0..2 * NEWTON_STEPS {
             let (f, slope) = self.at(t);
@@ -166,7 +158,7 @@ impl<'a, T: Scalar> Line<'a, T> {
                 high = t.re()
             }
             let mut next = t - f / slope;
-            if !(next.re() >= low && next.re() <= high) && next.size() > 0.0 {
+            if !(next.re() >= low && next.re() <= high) {
                 next = T::real(0.5 * (low + high));
             }
             let change = (next - t).size();
@@ -178,24 +170,34 @@ impl<'a, T: Scalar> Line<'a, T> {
         Some(t)
     }
 
-    /// The point of the line that lies deepest in the body.
-    fn deepest(&self, bound: f64) -> T {
-        let mut t = -self.half_q1;
+    /// A point of the line inside the body, the deepest one where that matters (near the rim), and
+    /// a first guess of where the line enters. `None` when the line misses the body.
+    fn deepest(&self) -> Option<(T, T)> {
+        let middle = -self.half_q1;
+        let distance = self.q0 - self.half_q1 * self.half_q1;
+        let core = self.shape.rough_core();
+        if distance.re() < core * core {
+            return Some((middle, middle - (-distance + 1.0).root()));
+        }
+        let mut t = middle;
         for _ in 0..NEWTON_STEPS {
-            let h = 1e-4;
-            let slope = self.at(t).1;
-            let bend = (self.at(t + h).1 - self.at(t - h).1) / (2.0 * h);
+            let (slope, bend) = (self.at(t).1, self.bend(t));
             let step = slope / bend;
-            let mut next = t - step;
-            if next.re().abs() > bound {
-                next = T::real(next.re().clamp(-bound, bound));
-            }
-            let change = (next - t).size();
-            t = next;
-            if change < 1e-10 {
+            t = t - step;
+            if step.size() < 1e-12 {
                 break;
             }
         }
-        t
+        let depth = self.at(t).0;
+        if depth.re() > 0.0 {
+            return None;
+        }
+        Some((t, t - (-(depth * 2.0) / self.bend(t)).root()))
+    }
+
+    /// Second derivative of `F` along the line, by a difference of slopes.
+    fn bend(&self, t: T) -> T {
+        let h = 1e-5;
+        (self.at(t + h).1 - self.at(t - h).1) / (2.0 * h)
     }
 }

@@ -12,7 +12,7 @@ mod silhouette;
 mod sphere;
 mod spheroid;
 
-pub use level::{Level, Slope};
+pub use level::{Level, Slope, Tangent};
 pub use raindrop::{Raindrop, RaindropModel};
 pub use silhouette::Silhouette;
 
@@ -101,6 +101,14 @@ impl Shape {
             Body::Sphere => sphere::slope(q),
             Body::Spheroid(spheroid) => spheroid.slope(q, depth),
             Body::Raindrop(drop) => drop.slope(q, depth),
+        }
+    }
+
+    /// Radius about the centre within which `F` is not smooth; every line through it hits the body.
+    fn rough_core(&self) -> f64 {
+        match &self.body {
+            Body::Sphere | Body::Spheroid(_) => 0.0,
+            Body::Raindrop(_) => raindrop::ROUGH_CORE,
         }
     }
 

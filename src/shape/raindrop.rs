@@ -16,6 +16,9 @@ const CHUANG_BEARD_1990: &str = include_str!("../../data/drops/raindrop_chuang_b
 
 /// Radius up to which the 1987 model takes a drop for a sphere (Sadeghi et al. 2012, Table I).
 const SPHERE_UP_TO: f64 = 0.4e-3;
+/// A polar profile is rough at its origin; the smallest profile radius of the models is 0.6.
+pub(super) const ROUGH_CORE: f64 = 0.4;
+
 const SMALLEST_RADIUS: f64 = 1e-6;
 
 /// Model of the equilibrium shape of a falling raindrop.
