@@ -24,3 +24,5 @@ pub mod scene;
 pub mod series;
 
 pub mod trace;
+
+pub mod farfield;
