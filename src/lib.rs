@@ -23,3 +23,5 @@ pub mod phase_table;
 pub mod scene;
 
 pub mod series;
+
+pub mod trace;
