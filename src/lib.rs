@@ -13,6 +13,7 @@
 //! `math`.
 
 pub mod math;
+pub mod pending_file;
 
 pub mod medium;
 pub mod optics;
