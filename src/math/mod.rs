@@ -2,3 +2,4 @@
 
 pub mod scalar;
 pub mod vec3;
+pub mod riccati_bessel;
