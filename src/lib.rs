@@ -22,3 +22,6 @@ pub mod phase_table;
 pub mod scene;
 
 pub mod series;
+
+#[cfg(feature = "cli")]
+pub mod cli;
