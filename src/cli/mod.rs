@@ -2,6 +2,8 @@
 //! output, progress bars and `anyhow`.
 
 mod interrupt;
+#[allow(dead_code)] // used by the commands that draw
+mod plot;
 mod table;
 
 use clap::{Parser, Subcommand};
