@@ -14,6 +14,7 @@
 
 pub mod math;
 
+pub mod color;
 pub mod medium;
 pub mod optics;
 pub mod shape;
