@@ -22,4 +22,5 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
+pub mod render;
 pub mod series;
