@@ -24,3 +24,7 @@ pub mod scene;
 
 pub mod render;
 pub mod series;
+
+pub mod trace;
+
+pub mod farfield;
