@@ -15,6 +15,7 @@
 pub mod math;
 pub mod pending_file;
 
+pub mod color;
 pub mod medium;
 pub mod optics;
 pub mod shape;
@@ -22,6 +23,7 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
+pub mod render;
 pub mod series;
 
 pub mod trace;
