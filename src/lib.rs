@@ -23,9 +23,11 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
-pub mod render;
+pub mod plan;
 pub mod series;
 
 pub mod trace;
 
 pub mod farfield;
+
+pub mod simulate;
