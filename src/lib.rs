@@ -23,5 +23,7 @@ pub mod scene;
 
 pub mod series;
 
+pub mod trace;
+
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -1,1 +1,6 @@
 //! Mathematics without physics: special functions, kernels, interpolation, quadrature.
+
+pub mod monotone;
+pub mod principal_value;
+pub mod scalar;
+pub mod vec3;
