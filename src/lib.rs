@@ -31,3 +31,5 @@ pub mod trace;
 pub mod farfield;
 
 pub mod simulate;
+#[cfg(feature = "cli")]
+pub mod cli;
