@@ -18,7 +18,11 @@ pub mod medium;
 pub mod optics;
 pub mod shape;
 
+pub mod pending_file;
 pub mod phase_table;
 pub mod scene;
+
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
 
 pub mod series;
