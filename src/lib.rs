@@ -13,7 +13,9 @@
 //! `math`.
 
 pub mod math;
+pub mod pending_file;
 
+pub mod color;
 pub mod medium;
 pub mod optics;
 pub mod shape;
@@ -25,4 +27,9 @@ pub mod scene;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 
+pub mod render;
 pub mod series;
+
+pub mod trace;
+
+pub mod farfield;

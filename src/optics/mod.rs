@@ -24,5 +24,7 @@
 //!   2 primary bow, 3 secondary bow. Forward diffraction is kept apart from `p = 0`.
 
 mod amplitude;
+mod fresnel;
 
 pub use amplitude::AmplitudeMatrix;
+pub use fresnel::{Fresnel, fresnel};

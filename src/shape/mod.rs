@@ -1,8 +1,131 @@
 //! Shapes of particles: surface, normal, curvature, silhouette. One file per kind.
+//!
+//! Every shape is a body of revolution about a vertical axis, scaled so that the sphere of equal
+//! volume has radius 1. Its surface is `F(q, ζ) = 0` with `q = x·x` and `ζ = x·down` (the depth
+//! below the centre); `F < 0` inside. A kind of shape supplies only this function of two scalars
+//! with its derivatives, for real and for complex points; intersection, normal and curvature
+//! follow for all kinds alike.
 
-/// Model of the equilibrium shape of a falling raindrop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RaindropModel {
-    BeardChuang1987,
-    ChuangBeard1990,
+mod level;
+mod raindrop;
+mod silhouette;
+mod sphere;
+mod spheroid;
+
+pub use level::{Level, Slope, Tangent};
+pub use raindrop::{Raindrop, RaindropModel};
+pub use silhouette::Silhouette;
+
+use crate::math::scalar::Scalar;
+use crate::math::vec3::Vec3;
+
+/// What went wrong with a shape.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ShapeError {
+    #[error("radius {radius_mm} mm is outside the drop model {model} ({from_mm} to {to_mm} mm)")]
+    RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
+    #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
+    AxisRatio(f64),
+}
+
+/// The kind of body, its equal-volume sphere scaled to radius 1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Body {
+    Sphere,
+    Spheroid(spheroid::Spheroid),
+    Raindrop(Raindrop),
+}
+
+/// A body, and the direction of its axis in the frame of the light (see [`crate::optics`]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    pub body: Body,
+    /// Unit vector from the body's centre to its lower pole, in the frame of the light.
+    pub down: Vec3<f64>,
+}
+
+impl Shape {
+    /// A sphere.
+    pub fn sphere() -> Self {
+        Self { body: Body::Sphere, down: Vec3 { x: -1.0, y: 0.0, z: 0.0 } }
+    }
+
+    /// A spheroid with the sun at an elevation (radians); `axis_ratio` is vertical over horizontal.
+    pub fn spheroid(axis_ratio: f64, sun_elevation: f64) -> Result<Self, ShapeError> {
+        let body = Body::Spheroid(spheroid::Spheroid::new(axis_ratio)?);
+        Ok(Self { body, down: down(sun_elevation) })
+    }
+
+    /// A falling raindrop of equal-volume radius (metres) with the sun at an elevation (radians).
+    pub fn raindrop(
+        radius: f64,
+        model: RaindropModel,
+        sun_elevation: f64,
+    ) -> Result<Self, ShapeError> {
+        let body = Body::Raindrop(Raindrop::new(radius, model)?);
+        Ok(Self { body, down: down(sun_elevation) })
+    }
+
+    /// A raindrop by its own coefficients `c_n` of `r = 1 + Σ c_n cos nθ`, θ from the lower pole.
+    pub fn polar(coefficients: &[f64], sun_elevation: f64) -> Self {
+        let body = Body::Raindrop(Raindrop::from_coefficients(coefficients));
+        Self { body, down: down(sun_elevation) }
+    }
+
+    /// True when scattering cannot depend on azimuth: a sphere, or light along the axis.
+    pub fn rotational_symmetry(&self) -> bool {
+        self.is_sphere() || self.down.x.abs() < 1e-12
+    }
+
+    /// True when the body is a sphere, by whatever kind it is described.
+    pub fn is_sphere(&self) -> bool {
+        match &self.body {
+            Body::Sphere => true,
+            Body::Spheroid(spheroid) => spheroid.is_sphere(),
+            Body::Raindrop(drop) => drop.is_sphere(),
+        }
+    }
+
+    /// `F` and its derivatives up to the second order at `(q, ζ)`.
+    pub fn level<T: Scalar>(&self, q: T, depth: T) -> Level<T> {
+        match &self.body {
+            Body::Sphere => sphere::level(q),
+            Body::Spheroid(spheroid) => spheroid.level(q, depth),
+            Body::Raindrop(drop) => drop.level(q, depth),
+        }
+    }
+
+    /// `F` and its first derivatives at `(q, ζ)`: what an intersection needs.
+    pub fn slope<T: Scalar>(&self, q: T, depth: T) -> Slope<T> {
+        match &self.body {
+            Body::Sphere => sphere::slope(q),
+            Body::Spheroid(spheroid) => spheroid.slope(q, depth),
+            Body::Raindrop(drop) => drop.slope(q, depth),
+        }
+    }
+
+    /// Radius about the centre within which `F` is not smooth; every line through it hits the body.
+    fn rough_core(&self) -> f64 {
+        match &self.body {
+            Body::Sphere | Body::Spheroid(_) => 0.0,
+            Body::Raindrop(_) => raindrop::ROUGH_CORE,
+        }
+    }
+
+    /// Largest distance of the surface from the centre.
+    pub fn bounding_radius(&self) -> f64 {
+        match &self.body {
+            Body::Sphere => 1.0,
+            Body::Spheroid(spheroid) => spheroid.bounding_radius(),
+            Body::Raindrop(drop) => drop.bounding_radius(),
+        }
+    }
+}
+
+/// The axis in the frame of the light for a sun at this elevation (radians).
+fn down(sun_elevation: f64) -> Vec3<f64> {
+    let (sin, cos) = sun_elevation.sin_cos();
+    // cos(90°) is not quite zero in floating point; the symmetry of light along the axis should be
+    let cos = if cos.abs() < 1e-15 { 0.0 } else { cos };
+    Vec3 { x: -cos, y: 0.0, z: sin }
 }

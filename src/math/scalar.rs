@@ -1,0 +1,84 @@
+//! The scalar that a ray is made of: real for the rays one sees, complex for those behind a caustic.
+//!
+//! On the dark side of a caustic the ray equations have complex solutions. All shapes here are
+//! analytic, so the same tracing code follows them when its scalar is complex.
+
+use num_complex::Complex64;
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+/// A field with square roots: `f64` or `Complex64`.
+pub trait Scalar:
+    Copy
+    + Debug
+    + Default
+    + Add<Output = Self>
+    + AddAssign
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+    /// Whether this is the real field.
+    const REAL: bool;
+    /// A real number as this scalar.
+    fn real(value: f64) -> Self;
+    /// Principal square root.
+    fn root(self) -> Self;
+    /// Real part.
+    fn re(self) -> f64;
+    /// Size, for tolerances.
+    fn size(self) -> f64;
+    /// As a complex number.
+    fn complex(self) -> Complex64;
+    /// `z · w` for a complex `z`, without complex arithmetic where `self` is real.
+    fn scale(self, z: Complex64) -> Complex64;
+}
+
+impl Scalar for f64 {
+    const REAL: bool = true;
+    fn real(value: f64) -> Self {
+        value
+    }
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    fn re(self) -> f64 {
+        self
+    }
+    fn size(self) -> f64 {
+        self.abs()
+    }
+    fn complex(self) -> Complex64 {
+        Complex64::new(self, 0.0)
+    }
+    fn scale(self, z: Complex64) -> Complex64 {
+        z * self
+    }
+}
+
+impl Scalar for Complex64 {
+    const REAL: bool = false;
+    fn real(value: f64) -> Self {
+        Complex64::new(value, 0.0)
+    }
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    fn re(self) -> f64 {
+        self.re
+    }
+    fn size(self) -> f64 {
+        self.norm()
+    }
+    fn complex(self) -> Complex64 {
+        self
+    }
+    fn scale(self, z: Complex64) -> Complex64 {
+        z * self
+    }
+}

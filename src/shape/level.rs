@@ -1,0 +1,203 @@
+//! The surface as a level set `F(q, ζ) = 0`: intersection, normal and curvature for every kind.
+
+use super::Shape;
+use crate::math::scalar::Scalar;
+use crate::math::vec3::Vec3;
+
+/// `F` and its first derivatives with respect to `q = x·x` and `ζ = x·down`.
+#[derive(Clone, Copy, Debug)]
+pub struct Slope<T> {
+    pub f: T,
+    pub q: T,
+    pub z: T,
+}
+
+/// First and second derivatives of `F` with respect to `q` and `ζ`.
+#[derive(Clone, Copy, Debug)]
+pub struct Level<T> {
+    pub q: T,
+    pub z: T,
+    pub qq: T,
+    pub qz: T,
+    pub zz: T,
+}
+
+/// The surface at one of its points.
+#[derive(Clone, Copy, Debug)]
+pub struct Tangent<T> {
+    /// Unit normal, outward.
+    pub normal: Vec3<T>,
+    position: Vec3<T>,
+    down: Vec3<T>,
+    level: Level<T>,
+    /// 1 / |∇F|
+    scale: T,
+}
+
+impl<T: Scalar> Tangent<T> {
+    /// Change of the unit normal for a displacement in the tangent plane (Weingarten map).
+    pub fn turn(&self, displacement: Vec3<T>) -> Vec3<T> {
+        let along_x = self.position.dot(displacement);
+        let along_k = self.down.dot(displacement);
+        let l = &self.level;
+        let change = displacement * (l.q * 2.0)
+            + self.position * (l.qq * along_x * 4.0 + l.qz * along_k * 2.0)
+            + self.down * (l.qz * along_x * 2.0 + l.zz * along_k);
+        let change = change * self.scale;
+        change - self.normal * self.normal.dot(change)
+    }
+
+    /// Normal curvature in the direction of a vector: `v·turn(v)`, positive for convex.
+    pub fn curvature(&self, v: Vec3<T>) -> T {
+        let tangential = v - self.normal * self.normal.dot(v);
+        tangential.dot(self.turn(tangential))
+    }
+}
+
+impl Shape {
+    /// Normal and curvature at a point of the surface.
+    pub fn tangent<T: Scalar>(&self, position: Vec3<T>) -> Tangent<T> {
+        let down = Vec3::real(self.down);
+        let level = self.level(position.dot(position), down.dot(position));
+        let gradient = position * (level.q * 2.0) + down * level.z;
+        let scale = T::real(1.0) / gradient.dot(gradient).root();
+        Tangent { normal: gradient * scale, position, down, level, scale }
+    }
+
+    /// Length of the chord from a surface point along an inward direction to the far side.
+    ///
+    /// Newton's method on `F(t)/t`, which has only the far root; a guess from the curvature where
+    /// the chord begins is exact on a sphere. Real chords are kept inside a bracket.
+    pub fn chord<T: Scalar>(&self, from: Vec3<T>, direction: Vec3<T>, tangent: &Tangent<T>) -> T {
+        let inward = -(tangent.normal.dot(direction));
+        let curvature = tangent.curvature(direction);
+        let guess = inward * 2.0 / (curvature + inward * inward);
+        Line::new(self, from, direction).far_root(guess, 2.0 * self.bounding_radius())
+    }
+
+    /// Where the line `(u, v, t)` along +z first meets the surface: the coordinate `t`.
+    /// `None` when it misses.
+    pub fn entry<T: Scalar>(&self, u: T, v: T) -> Option<T> {
+        let origin = Vec3::new(u, v, T::default());
+        let axis = Vec3::new(T::default(), T::default(), T::real(1.0));
+        Line::new(self, origin, axis).near_root(self.bounding_radius())
+    }
+}
+
+/// `F` along a straight line, as a function of the length `t`.
+struct Line<'a, T> {
+    shape: &'a Shape,
+    q0: T,
+    half_q1: T,
+    z0: T,
+    z1: T,
+}
+
+const NEWTON_STEPS: usize = 40;
+
+impl<'a, T: Scalar> Line<'a, T> {
+    fn new(shape: &'a Shape, origin: Vec3<T>, direction: Vec3<T>) -> Self {
+        let down = Vec3::real(shape.down);
+        Self {
+            shape,
+            q0: origin.dot(origin),
+            half_q1: origin.dot(direction),
+            z0: down.dot(origin),
+            z1: down.dot(direction),
+        }
+    }
+
+    /// `F(t)` and `F'(t)`.
+    fn at(&self, t: T) -> (T, T) {
+        let q = self.q0 + (self.half_q1 * 2.0 + t) * t;
+        let s = self.shape.slope(q, self.z0 + self.z1 * t);
+        (s.f, s.q * (self.half_q1 + t) * 2.0 + s.z * self.z1)
+    }
+
+    /// The root beyond the one at `t = 0`.
+    fn far_root(&self, guess: T, longest: f64) -> T {
+        let mut t = guess;
+        let (mut low, mut high) = (0.0, longest);
+        for _ in 0..NEWTON_STEPS {
+            let (f, slope) = self.at(t);
+            if f.re() < 0.0 {
+                low = t.re()
+            } else {
+                high = t.re()
+            }
+            // (F/t)' = (F' - F/t)/t
+            let step = f / (slope - f / t);
+            let mut next = t - step;
+            if !(next.re() > low * 0.5 && next.re() < high * 1.5) {
+                next = T::real(0.5 * (low + high));
+            }
+            let change = (next - t).size();
+            t = next;
+            if change <= 4e-16 * (1.0 + t.size()) {
+                break;
+            }
+            // Quadratic convergence: the next step would be below rounding.
+            if change < 1e-9 * t.size() {
+                let (f, slope) = self.at(t);
+                return t - f / (slope - f / t);
+            }
+        }
+        t
+    }
+
+    /// The first of the two roots about the point of greatest depth.
+    fn near_root(&self, bound: f64) -> Option<T> {
+        let (deepest, guess) = self.deepest()?;
+        let mut t = guess;
+        let (mut low, mut high) = (-1.01 * bound, deepest.re());
+        for _ in 0..2 * NEWTON_STEPS {
+            let (f, slope) = self.at(t);
+            if f.re() > 0.0 {
+                low = t.re()
+            } else {
+                high = t.re()
+            }
+            let mut next = t - f / slope;
+            if !(next.re() >= low && next.re() <= high) {
+                next = T::real(0.5 * (low + high));
+            }
+            let change = (next - t).size();
+            t = next;
+            if change <= 4e-16 * (1.0 + t.size()) {
+                break;
+            }
+        }
+        Some(t)
+    }
+
+    /// A point of the line inside the body, the deepest one where that matters (near the rim), and
+    /// a first guess of where the line enters. `None` when the line misses the body.
+    fn deepest(&self) -> Option<(T, T)> {
+        let middle = -self.half_q1;
+        let distance = self.q0 - self.half_q1 * self.half_q1;
+        let core = self.shape.rough_core();
+        if distance.re() < core * core {
+            return Some((middle, middle - (-distance + 1.0).root()));
+        }
+        let mut t = middle;
+        for _ in 0..NEWTON_STEPS {
+            let (slope, bend) = (self.at(t).1, self.bend(t));
+            let step = slope / bend;
+            t = t - step;
+            if step.size() < 1e-12 {
+                break;
+            }
+        }
+        let depth = self.at(t).0;
+        if depth.re() > 0.0 {
+            return None;
+        }
+        Some((t, t - (-(depth * 2.0) / self.bend(t)).root()))
+    }
+
+    /// Second derivative of `F` along the line, by a difference of slopes.
+    fn bend(&self, t: T) -> T {
+        let h = 1e-5;
+        (self.at(t + h).1 - self.at(t - h).1) / (2.0 * h)
+    }
+}

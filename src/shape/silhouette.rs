@@ -1,0 +1,59 @@
+//! The silhouette: the outline of the body's shadow, seen along the light.
+
+use super::Shape;
+use crate::math::vec3::Vec3;
+
+/// Radius of the shadow's outline about the centre, by azimuth `ψ` in the plane of `(u, v)`.
+#[derive(Clone, Debug)]
+pub struct Silhouette<'a> {
+    shape: &'a Shape,
+}
+
+impl Shape {
+    /// The outline of this shape's shadow.
+    pub fn silhouette(&self) -> Silhouette<'_> {
+        Silhouette { shape: self }
+    }
+}
+
+impl Silhouette<'_> {
+    /// Radius `ρ` of the outline at azimuth `ψ`: the largest `ρ` for which the line
+    /// `(ρ cos ψ, ρ sin ψ, t)` still touches the body.
+    ///
+    /// Newton's method on `F = 0` and `∂F/∂t = 0` in `(ρ, t)`.
+    pub fn radius(&self, azimuth: f64) -> f64 {
+        let (sin, cos) = azimuth.sin_cos();
+        let along = Vec3 { x: cos, y: sin, z: 0.0 };
+        let down = self.shape.down;
+        let (mut rho, mut t) = (1.0, 0.0);
+        for _ in 0..50 {
+            let x = along * rho + Vec3 { x: 0.0, y: 0.0, z: t };
+            let (q, z) = (x.dot(x), down.dot(x));
+            let s = self.shape.slope(q, z);
+            let l = self.shape.level(q, z);
+            // first and second derivatives along `along` and the light
+            let (ka, kt) = (down.dot(along), down.z);
+            let (qa, qt) = (2.0 * rho, 2.0 * t);
+            let fa = s.q * qa + s.z * ka;
+            let ft = s.q * qt + s.z * kt;
+            let ftt = 2.0 * l.q + l.qq * qt * qt + 2.0 * l.qz * qt * kt + l.zz * kt * kt;
+            let fat = l.qq * qa * qt + l.qz * (qa * kt + qt * ka) + l.zz * ka * kt;
+            let det = fa * ftt - ft * fat;
+            let step_rho = (s.f * ftt - ft * ft) / det;
+            let step_t = (fa * ft - fat * s.f) / det;
+            rho -= step_rho.clamp(-0.3, 0.3);
+            t -= step_t.clamp(-0.3, 0.3);
+            if step_rho.abs() + step_t.abs() < 1e-15 {
+                break;
+            }
+        }
+        rho
+    }
+
+    /// Area of the shadow, in units of the square of the radius of equal volume.
+    pub fn area(&self) -> f64 {
+        let count = 720;
+        let step = std::f64::consts::TAU / count as f64;
+        (0..count).map(|i| 0.5 * self.radius(i as f64 * step).powi(2) * step).sum()
+    }
+}

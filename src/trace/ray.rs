@@ -1,0 +1,158 @@
+//! The state of one ray, and its way through the particle order by order.
+
+use super::exit::Exit;
+use super::focal_lines;
+use super::surface_event::Event;
+use crate::math::scalar::Scalar;
+use crate::math::vec3::{Field, Vec3};
+use crate::shape::Shape;
+use num_complex::Complex64;
+
+/// A ray with its differentials. Lengths in units of the radius of equal volume.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray<T> {
+    pub position: Vec3<T>,
+    pub direction: Vec3<T>,
+    /// ∂position/∂(u, v)
+    pub dx: [Vec3<T>; 2],
+    /// ∂direction/∂(u, v)
+    pub ds: [Vec3<T>; 2],
+    /// Optical path from the plane through the centre normal to the light.
+    pub path: T,
+    /// Electric fields for incident light along x and along y, normalised to power.
+    pub field: [Field; 2],
+    pub focal_lines: u32,
+}
+
+/// Traces rays of one wavelength through one shape.
+#[derive(Clone, Debug)]
+pub struct Tracer<'a> {
+    shape: &'a Shape,
+    /// Complex index: Fresnel coefficients see all of it, the geometry its real part.
+    index: Complex64,
+    /// Decrease of amplitude per unit of chord length: `k₀ a κ`.
+    decrement: f64,
+    last_order: u32,
+}
+
+/// What is left of a ray's power when tracing stops, as fractions of what it brought.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Remainder {
+    pub absorbed: f64,
+    pub totally_reflected: f64,
+    pub truncated: f64,
+}
+
+impl<'a> Tracer<'a> {
+    /// A tracer up to `last_order`; `size_parameter` matters only for absorption.
+    pub fn new(shape: &'a Shape, index: Complex64, size_parameter: f64, last_order: u32) -> Self {
+        Self { shape, index, decrement: size_parameter * index.im, last_order }
+    }
+
+    /// The shape traced.
+    pub fn shape(&self) -> &'a Shape {
+        self.shape
+    }
+
+    /// The highest order traced.
+    pub fn last_order(&self) -> u32 {
+        self.last_order
+    }
+
+    /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
+    /// `None` when the ray misses the particle.
+    pub fn trace<T: Scalar>(
+        &self,
+        u: T,
+        v: T,
+        mut visit: impl FnMut(Exit<T>),
+    ) -> Option<Remainder> {
+        let mut ray = self.launch(u, v)?;
+        let mut tangent = self.shape.tangent(ray.position);
+        let event = Event::new(&mut ray, &tangent, self.index);
+        visit(leave(0, event.reflect(&ray)));
+        let mut remainder = Remainder::default();
+        let inside = event.refract(&ray, 1.0 / self.index.re);
+        let Some(mut inside) = inside.filter(|_| self.last_order > 0) else {
+            remainder.truncated = 1.0 - power(&event.reflect(&ray));
+            return Some(remainder);
+        };
+        let mut totally_reflected = false;
+        for order in 1..=self.last_order {
+            remainder.absorbed += self.cross(&mut inside, &tangent);
+            tangent = self.shape.tangent(inside.position);
+            let event = Event::new(&mut inside, &tangent, self.index.inv());
+            let outside = event.refract(&inside, self.index.re);
+            totally_reflected = outside.is_none();
+            if let Some(outside) = outside {
+                visit(leave(order, outside));
+            }
+            inside = event.reflect(&inside);
+        }
+        let left = power(&inside);
+        if totally_reflected {
+            remainder.totally_reflected = left;
+        } else {
+            remainder.truncated = left;
+        }
+        Some(remainder)
+    }
+
+    /// The ray at its first meeting with the surface.
+    fn launch<T: Scalar>(&self, u: T, v: T) -> Option<Ray<T>> {
+        let t = self.shape.entry(u, v)?;
+        let (zero, one) = (T::default(), T::real(1.0));
+        let unit = |x: f64, y: f64| Vec3 {
+            x: Complex64::new(x, 0.0),
+            y: Complex64::new(y, 0.0),
+            z: Complex64::default(),
+        };
+        Some(Ray {
+            position: Vec3::new(u, v, t),
+            direction: Vec3::new(zero, zero, one),
+            dx: [Vec3::new(one, zero, zero), Vec3::new(zero, one, zero)],
+            ds: [Vec3::default(); 2],
+            path: t,
+            field: [unit(1.0, 0.0), unit(0.0, 1.0)],
+            focal_lines: 0,
+        })
+    }
+
+    /// Carry a ray over one chord; returns the share of power absorbed on it.
+    fn cross<T: Scalar>(&self, ray: &mut Ray<T>, tangent: &crate::shape::Tangent<T>) -> f64 {
+        let length = self.shape.chord(ray.position, ray.direction, tangent);
+        if T::REAL {
+            ray.focal_lines += count(ray, length.re());
+        }
+        ray.position = ray.position + ray.direction * length;
+        ray.dx = [0, 1].map(|k| ray.dx[k] + ray.ds[k] * length);
+        ray.path += length * self.index.re;
+        if self.decrement == 0.0 {
+            return 0.0;
+        }
+        let before = power(ray);
+        let factor = (-length.complex() * self.decrement).exp();
+        ray.field = ray.field.map(|e| e * factor);
+        before - power(ray)
+    }
+}
+
+/// The exit of a ray that has just left the surface, with the focal lines still ahead of it.
+fn leave<T: Scalar>(order: u32, mut ray: Ray<T>) -> Exit<T> {
+    if T::REAL {
+        ray.focal_lines += count(&ray, f64::INFINITY);
+    }
+    Exit::new(order, &ray)
+}
+
+/// Focal lines on a ray's next stretch.
+fn count<T: Scalar>(ray: &Ray<T>, length: f64) -> u32 {
+    let real = |v: Vec3<T>| Vec3 { x: v.x.re(), y: v.y.re(), z: v.z.re() };
+    focal_lines::count(real(ray.direction), &ray.dx.map(real), &ray.ds.map(real), length)
+}
+
+/// Power of unpolarised light in a ray.
+fn power<T>(ray: &Ray<T>) -> f64 {
+    let square = |e: &Field| e.x.norm_sqr() + e.y.norm_sqr() + e.z.norm_sqr();
+    0.5 * (square(&ray.field[0]) + square(&ray.field[1]))
+}
