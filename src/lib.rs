@@ -20,10 +20,15 @@ pub mod medium;
 pub mod optics;
 pub mod shape;
 
+pub mod pending_file;
 pub mod phase_table;
 pub mod scene;
 
 pub mod plan;
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
+
+pub mod render;
 pub mod series;
 
 pub mod trace;
