@@ -20,14 +20,12 @@ pub mod medium;
 pub mod optics;
 pub mod shape;
 
-pub mod pending_file;
 pub mod phase_table;
 pub mod scene;
 
-pub mod plan;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-
+pub mod plan;
 pub mod render;
 pub mod series;
 
@@ -36,5 +34,3 @@ pub mod trace;
 pub mod farfield;
 
 pub mod simulate;
-#[cfg(feature = "cli")]
-pub mod cli;

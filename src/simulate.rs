@@ -4,9 +4,9 @@
 //! the far field, every azimuth of the table becomes a column of amplitudes, and the columns become
 //! a [`Slab`], which is handed on before the next wavelength is computed.
 
+use crate::farfield::FarField;
 use crate::farfield::patch;
 use crate::farfield::tabulate::{Tabulator, Values};
-use crate::farfield::{Direction, FarField};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, EnergyBudget, Slab, TableHeader};
@@ -68,7 +68,8 @@ pub fn simulate<E: From<SimulateError>>(
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        return series_slab(scene, plan, wavelength, index);
+        let (field, value) = ("method", "mie".to_string());
+        return Err(crate::series::SeriesError::Invalid { field, value, accepted: "rays" }.into());
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
@@ -197,13 +198,3 @@ fn far_field<'a>(
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.
 const FIRST_SPOKE: f64 = 0.0123;
-
-fn series_slab(
-    scene: &Scene,
-    plan: &Plan,
-    wavelength: f64,
-    index: Complex64,
-) -> Result<Slab, SimulateError> {
-    let _ = (scene, plan, wavelength, index, Direction::new(0.0, 0.0));
-    todo!()
-}

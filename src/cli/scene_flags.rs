@@ -140,8 +140,9 @@ pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
 impl ParticleFlags {
     /// As keys of a scene.
     pub fn keys(&self) -> ParticleKeys {
-        let named = self.medium.clone().map(MediumSpec::Name);
-        let medium = self.index.map(|index| MediumSpec::Index { index }).or(named);
+        let named = self.medium.clone().map(|name| MediumSpec::name(&name));
+        let medium =
+            self.index.map(|index| MediumSpec::Index { n: index[0], k: index[1] }).or(named);
         ParticleKeys {
             shape: self.shape,
             radius_mm: self.radius_mm,

@@ -154,37 +154,6 @@ impl Medium {
     }
 }
 
-/// A medium as written in a scene.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(untagged)]
-pub enum MediumSpec {
-    /// A name in the library.
-    Name(String),
-    /// `{ index = [n, k] }`.
-    Index { index: [f64; 2] },
-}
-
-impl Default for MediumSpec {
-    fn default() -> Self {
-        MediumSpec::Name("water".into())
-    }
-}
-
-impl MediumSpec {
-    /// The medium that is meant; `temperature_c` where its index depends on it.
-    pub fn resolve(&self, temperature_c: Option<f64>) -> Result<Medium, MediumError> {
-        match self {
-            MediumSpec::Name(name) if name == "water" => {
-                Ok(Medium::Water { temperature: temperature_c.unwrap_or(20.0) + 273.15 })
-            }
-            MediumSpec::Name(name) => Err(MediumError::Invalid {
-                field: "medium".into(),
-                value: name.clone(),
-                accepted: "water".into(),
-            }),
-            MediumSpec::Index { index: [n, k] } => Ok(Medium::Constant(Complex64::new(*n, *k))),
-        }
-    }
 /// Refuses wavelengths (metres) outside a range, with a slack of a part in 10¹² for rounding.
 fn check_range(name: &str, wavelength: f64, range: (f64, f64)) -> Result<(), MediumError> {
     if wavelength >= range.0 * (1.0 - 1e-12) && wavelength <= range.1 * (1.0 + 1e-12) {

@@ -186,9 +186,12 @@ fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
 
 fn medium_of(keys: &ParticleKeys, wavelengths: &[f64]) -> Result<Medium, SceneError> {
     const KEY: &str = "particle.medium";
-    let spec = keys.medium.clone().unwrap_or_default();
-    let medium =
-        spec.resolve(keys.temperature_c).map_err(|source| SceneError::medium(KEY, source))?;
+    let mut spec = keys.medium.clone().unwrap_or_default();
+    if let (MediumSpec::Named(named), Some(celsius)) = (&mut spec, keys.temperature_c) {
+        named.temperature_c = Some(celsius);
+    }
+    let here = std::path::Path::new("");
+    let medium = spec.resolve(here).map_err(|source| SceneError::medium(KEY, source))?;
     for wavelength in wavelengths {
         let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
         if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {
