@@ -3,4 +3,5 @@
 pub mod monotone;
 pub mod principal_value;
 pub mod scalar;
+pub mod spline;
 pub mod vec3;
