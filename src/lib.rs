@@ -13,7 +13,9 @@
 //! `math`.
 
 pub mod math;
+pub mod pending_file;
 
+pub mod color;
 pub mod medium;
 pub mod optics;
 pub mod shape;
@@ -21,9 +23,14 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
+pub mod plan;
+pub mod render;
 pub mod series;
 
 pub mod trace;
 
-#[cfg(feature = "cli")]
-pub mod cli;
+pub mod farfield;
+
+pub mod simulate;

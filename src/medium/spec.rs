@@ -485,3 +485,10 @@ impl Serialize for MediumSpec {
         }
     }
 }
+
+impl Default for MediumSpec {
+    /// Water.
+    fn default() -> Self {
+        Self::name("water")
+    }
+}

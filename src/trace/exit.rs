@@ -63,30 +63,28 @@ impl Exit<f64> {
     }
 }
 
-impl<T: Scalar> Exit<T> {
-    /// Field transfer `T` in the frames of the scattering plane, arranged as an amplitude matrix
-    /// (without `-ik √(dA/dΩ) exp(ikW - iπm/2)`).
-    ///
-    /// `theta_hat` and `phi_hat` are the unit vectors of the direction's spherical coordinates,
-    /// `(cos φ, sin φ)` the azimuth's direction.
-    pub fn transfer(
-        &self,
-        theta_hat: Vec3<T>,
-        phi_hat: Vec3<T>,
-        cos: T,
-        sin: T,
-    ) -> AmplitudeMatrix {
-        let [ex, ey] = self.field;
-        let along = |axis: Vec3<T>| (axis.project(ex), axis.project(ey));
-        let (tx, ty) = along(theta_hat);
-        let (fx, fy) = along(phi_hat);
-        let parallel = |x: Complex64, y: Complex64| cos.scale(x) + sin.scale(y);
-        let perpendicular = |x: Complex64, y: Complex64| sin.scale(x) - cos.scale(y);
-        AmplitudeMatrix {
-            s2: parallel(tx, ty),
-            s3: perpendicular(tx, ty),
-            s4: -parallel(fx, fy),
-            s1: -perpendicular(fx, fy),
-        }
+/// Field transfer `T` in the frames of the scattering plane, arranged as an amplitude matrix
+/// (without `-ik √(dA/dΩ) exp(ikW - iπm/2)`).
+///
+/// `field` are the outgoing fields for incident light along x and y; `theta_hat` and `phi_hat` the
+/// unit vectors of the direction's spherical coordinates, `(cos, sin)` the azimuth's direction.
+pub fn transfer<T: Scalar>(
+    field: &[Field; 2],
+    theta_hat: Vec3<T>,
+    phi_hat: Vec3<T>,
+    cos: T,
+    sin: T,
+) -> AmplitudeMatrix {
+    let [ex, ey] = *field;
+    let along = |axis: Vec3<T>| (axis.project(ex), axis.project(ey));
+    let (tx, ty) = along(theta_hat);
+    let (fx, fy) = along(phi_hat);
+    let parallel = |x: Complex64, y: Complex64| cos.scale(x) + sin.scale(y);
+    let perpendicular = |x: Complex64, y: Complex64| sin.scale(x) - cos.scale(y);
+    AmplitudeMatrix {
+        s2: parallel(tx, ty),
+        s3: perpendicular(tx, ty),
+        s4: -parallel(fx, fy),
+        s1: -perpendicular(fx, fy),
     }
 }

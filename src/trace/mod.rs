@@ -13,6 +13,6 @@ mod surface_event;
 mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
-pub use exit::Exit;
+pub use exit::{Exit, transfer};
 pub use ray::Tracer;
 pub use wavefront::Wavefront;

@@ -7,6 +7,9 @@
 use crate::shape::Shape;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+/// Distance in α of the last ring from the rim, where differentials have no limit.
+const GRAZING: f64 = 1e-4;
+
 /// A polar grid of rays over the silhouette.
 #[derive(Clone, Debug)]
 pub struct Wavefront {
@@ -43,6 +46,54 @@ impl Wavefront {
         let half = 0.25 * std::f64::consts::PI / self.rings.len() as f64;
         let (low, high) = ((self.rings[i] - half).sin(), (self.rings[i] + half).sin());
         0.5 * self.rim[j].powi(2) * (high * high - low * low) * TAU / self.spokes.len() as f64
+    }
+
+    /// A grid whose rays are corners of patches: a centre ray and `ring_count` rings, the last of
+    /// which grazes the rim. Azimuths start at `first`.
+    pub fn corners(shape: &Shape, ring_count: usize, spoke_count: usize, first: f64) -> Self {
+        let silhouette = shape.silhouette();
+        let last = FRAC_PI_2 - GRAZING;
+        let spoke = |j: usize| first + j as f64 * TAU / spoke_count as f64;
+        let spokes: Vec<f64> = (0..spoke_count).map(spoke).collect();
+        let rim: Vec<f64> = spokes.iter().map(|&psi| silhouette.radius(psi)).collect();
+        let area = rim.iter().map(|r| 0.5 * r * r * TAU / spoke_count as f64).sum();
+        let rings = (1..=ring_count).map(|i| i as f64 * last / ring_count as f64).collect();
+        Self { rings, spokes, rim, area }
+    }
+
+    /// Number of corner rays: the centre and all rings.
+    #[allow(clippy::len_without_is_empty)] // a wavefront always has its centre
+    pub fn len(&self) -> usize {
+        1 + self.rings.len() * self.spokes.len()
+    }
+
+    /// Place of corner ray `n`: 0 is the centre, then ring by ring.
+    pub fn vertex(&self, n: usize) -> (f64, f64) {
+        if n == 0 {
+            return (0.0, 0.0);
+        }
+        let spokes = self.spokes.len();
+        self.place((n - 1) / spokes, (n - 1) % spokes)
+    }
+
+    /// Triangles between neighbouring corner rays, counter-clockwise, diagonals alternating.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let (rings, spokes) = (self.rings.len(), self.spokes.len());
+        let number = |i: usize, j: usize| (1 + i * spokes + j % spokes) as u32;
+        let mut triangles = Vec::with_capacity(2 * rings * spokes);
+        for j in 0..spokes {
+            triangles.push([0, number(0, j), number(0, j + 1)]);
+            for i in 1..rings {
+                let [a, b] = [number(i - 1, j), number(i - 1, j + 1)];
+                let [c, d] = [number(i, j), number(i, j + 1)];
+                if (i + j) % 2 == 0 {
+                    triangles.extend([[a, c, d], [a, d, b]]);
+                } else {
+                    triangles.extend([[a, c, b], [b, c, d]]);
+                }
+            }
+        }
+        triangles
     }
 
     /// Area of the silhouette in units of the squared radius.

@@ -1,0 +1,93 @@
+//! Sheets of rays, cut into triangular patches on the sphere of directions.
+//!
+//! All rays of one order form a sheet: the wavefront's grid, mapped to exit directions. Between
+//! grid rays only smooth quantities are interpolated: the path with its exact gradient
+//! (`dW = -x_ref·ds`), the field transfer and the signed spread `s·(∂ᵤs × ∂ᵥs)`, never `1/√spread`.
+
+use crate::math::vec3::{Field, Vec3};
+use crate::trace::{Exit, Tracer, Wavefront};
+use rayon::prelude::*;
+
+/// One traced ray as a corner of patches.
+#[derive(Clone, Copy, Debug)]
+pub struct Corner {
+    pub direction: Vec3<f64>,
+    pub reference: Vec3<f64>,
+    pub path: f64,
+    pub spread: f64,
+    pub field: [Field; 2],
+    pub focal_lines: u32,
+    /// Place on the emitting plane.
+    pub place: [f64; 2],
+}
+
+/// A triangle of neighbouring rays, as indices of corners; counter-clockwise on the emitting plane.
+pub type Triangle = [u32; 3];
+
+/// All rays of one order.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    pub order: u32,
+    pub corners: Vec<Corner>,
+    pub triangles: Vec<Triangle>,
+}
+
+impl Corner {
+    fn new(exit: &Exit<f64>, place: [f64; 2]) -> Self {
+        Self {
+            direction: exit.direction,
+            reference: exit.reference,
+            path: exit.path,
+            spread: exit.spread(),
+            field: exit.field,
+            focal_lines: exit.focal_lines,
+            place,
+        }
+    }
+}
+
+/// Trace a wavefront and cut the rays of the given orders into sheets, in the order asked for.
+///
+/// Rays that are totally reflected leave no corner; triangles that would need one are left out.
+pub fn sheets(tracer: &Tracer, wavefront: &Wavefront, orders: &[u32]) -> Vec<Sheet> {
+    let slots: Vec<Vec<Option<Corner>>> = (0..wavefront.len())
+        .into_par_iter()
+        .with_min_len(64)
+        .map(|ray| {
+            let (u, v) = wavefront.vertex(ray);
+            let mut found = vec![None; orders.len()];
+            tracer.trace(u, v, |exit| {
+                if let Some(slot) = orders.iter().position(|&p| p == exit.order) {
+                    found[slot] = Some(Corner::new(&exit, [u, v]));
+                }
+            });
+            found
+        })
+        .collect();
+    let triangles = wavefront.triangles();
+    orders
+        .par_iter()
+        .enumerate()
+        .map(|(slot, &order)| sheet(order, slots.iter().map(|s| s[slot]), &triangles))
+        .collect()
+}
+
+/// Keep the rays that exist and renumber the triangles.
+fn sheet(order: u32, rays: impl Iterator<Item = Option<Corner>>, triangles: &[Triangle]) -> Sheet {
+    const MISSING: u32 = u32::MAX;
+    let mut corners = Vec::new();
+    let numbers: Vec<u32> = rays
+        .map(|ray| {
+            ray.map_or(MISSING, |corner| {
+                corners.push(corner);
+                corners.len() as u32 - 1
+            })
+        })
+        .collect();
+    let triangles = triangles
+        .iter()
+        .map(|t| t.map(|i| numbers[i as usize]))
+        .filter(|t| t.iter().all(|&i| i != MISSING))
+        .collect();
+    Sheet { order, corners, triangles }
+}

@@ -1,0 +1,44 @@
+//! Pictures of phase tables: a preview of the table itself, and rainbows in the sky.
+//!
+//! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s. Stages of a rainbow:
+//! table → XYZ per direction ([`tristimulus`]) → mixture of drops → what each pixel of the
+//! [`camera`] sees of the sky, averaged over the sun's disc ([`sky`]) → sRGB → PNG.
+
+mod directions;
+mod font;
+mod heat_map;
+mod picture;
+pub mod preview;
+mod sun_smoothing;
+mod tristimulus;
+
+pub use directions::DirectionGrid;
+pub use font::{FONT, ensure_font};
+pub use heat_map::{colour_bar, draw_pixels};
+pub use picture::{Picture, write_complete};
+pub use sun_smoothing::smooth_over_sun;
+pub use tristimulus::{Tristimulus, rotational_xyz};
+
+use crate::color::ColorError;
+use std::path::PathBuf;
+
+/// Why a picture cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    #[error(transparent)]
+    Color(#[from] ColorError),
+    #[error("{}: {source}", path.display())]
+    Write { path: PathBuf, source: std::io::Error },
+    #[error("drawing failed: {0}")]
+    Drawing(String),
+    #[error("{field} = {value}: {accepted}")]
+    Invalid { field: String, value: String, accepted: String },
+}
+
+impl<E: std::error::Error + Send + Sync> From<plotters::drawing::DrawingAreaErrorKind<E>>
+    for RenderError
+{
+    fn from(error: plotters::drawing::DrawingAreaErrorKind<E>) -> Self {
+        RenderError::Drawing(error.to_string())
+    }
+}

@@ -1,0 +1,69 @@
+//! An RGB picture, and how it gets into a file: complete, or not at all.
+
+use super::RenderError;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// 8-bit sRGB, rows from the top.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    pub width: usize,
+    pub height: usize,
+    /// `3 · width · height` bytes.
+    pub rgb: Vec<u8>,
+}
+
+impl Picture {
+    /// All black.
+    pub fn new(width: usize, height: usize) -> Self {
+        Self { width, height, rgb: vec![0; 3 * width * height] }
+    }
+
+    /// The picture as PNG, tagged as sRGB.
+    ///
+    /// # Errors
+    /// [`RenderError::Drawing`] when the encoder refuses (a side of 0).
+    pub fn png(&self) -> Result<Vec<u8>, RenderError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+        let drawing = |error: png::EncodingError| RenderError::Drawing(error.to_string());
+        let mut writer = encoder.write_header().map_err(drawing)?;
+        writer.write_image_data(&self.rgb).map_err(drawing)?;
+        writer.finish().map_err(drawing)?;
+        Ok(bytes)
+    }
+
+    /// Write as PNG; the file appears only when it is complete.
+    ///
+    /// # Errors
+    /// [`RenderError::Write`] with the path.
+    pub fn write_png(&self, path: &Path) -> Result<(), RenderError> {
+        write_complete(path, &self.png()?)
+    }
+}
+
+/// Write `bytes` beside `path` under a temporary name, flush them to disk, then rename.
+///
+/// # Errors
+/// [`RenderError::Write`]; the temporary file is gone then, and `path` is as it was.
+pub fn write_complete(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
+    let failed = |source: io::Error| RenderError::Write { path: path.to_owned(), source };
+    let Some(name) = path.file_name() else {
+        return Err(failed(io::Error::new(io::ErrorKind::InvalidInput, "not a file name")));
+    };
+    let mut beside = name.to_owned();
+    beside.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(beside);
+
+    let written = File::create(&temporary)
+        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+        .and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|error| {
+        let _ = fs::remove_file(&temporary);
+        failed(error)
+    })
+}

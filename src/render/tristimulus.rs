@@ -1,0 +1,106 @@
+//! From spectra per direction to XYZ per direction.
+
+use super::directions::DirectionGrid;
+use super::smooth_over_sun;
+use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer, SunDisc};
+use crate::phase_table::PhaseTable;
+
+/// XYZ (in sr⁻¹: 1 would be the illuminant's white) over the directions of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tristimulus {
+    pub grid: DirectionGrid,
+    /// θ-major.
+    pub xyz: Vec<[f32; 3]>,
+}
+
+impl Tristimulus {
+    /// XYZ of one Mueller element (0 for `phase_function`) of a table. With `mu`, the light is
+    /// that of the ring of the sun's disc at this heliocentric cosine.
+    ///
+    /// # Errors
+    /// [`ColorError`] when the table's wavelengths make no colour.
+    pub fn of_table(
+        table: &PhaseTable,
+        element: usize,
+        illuminant: Illuminant,
+        observer: Observer,
+        mu: Option<f64>,
+    ) -> Result<Self, ColorError> {
+        let axes = &table.header.axes;
+        let weights = ColorWeights::new(&axes.wavelength, illuminant, observer)?;
+        let grid = DirectionGrid::new(axes);
+        let mut xyz = vec![[0.0_f32; 3]; grid.len()];
+        for (slab, weight) in table.slabs.iter().zip(&weights.weights) {
+            let limb = mu.map_or(1.0, |mu| LimbDarkening::at(slab.wavelength).brightness(mu));
+            let weight = weight.map(|w| (w * limb) as f32);
+            let values = slab.values.index_axis(ndarray::Axis(0), element);
+            for (sum, &value) in xyz.iter_mut().zip(values) {
+                for c in 0..3 {
+                    sum[c] += weight[c] * value;
+                }
+            }
+        }
+        Ok(Self { grid, xyz })
+    }
+
+    /// XYZ in a direction (radians), where the table reaches.
+    pub fn at(&self, theta: f64, phi: f64) -> Option<[f64; 3]> {
+        let corners = self.grid.corners(theta, phi)?;
+        let mut xyz = [0.0; 3];
+        for (index, weight) in corners {
+            for c in 0..3 {
+                xyz[c] += weight * f64::from(self.xyz[index][c]);
+            }
+        }
+        Some(xyz)
+    }
+
+    /// Mean over the directions of the sun's disc around (θ, φ), rings weighted alike (build one
+    /// per ring with `mu` for limb darkening). Directions beyond the table are left out.
+    pub fn over_disc(&self, disc: &SunDisc, theta: f64, phi: f64) -> [f64; 3] {
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for ring in 0..disc.ring.len() {
+            for (t, p) in disc.around(ring, theta, phi) {
+                if let Some(xyz) = self.at(t, p) {
+                    (0..3).for_each(|c| sum[c] += xyz[c]);
+                    count += 1.0;
+                }
+            }
+        }
+        sum.map(|v| v / f64::max(count, 1.0))
+    }
+}
+
+/// XYZ of a table without azimuth dependence, averaged over the sun's disc wavelength by
+/// wavelength, at the angles `out` (radians).
+///
+/// # Errors
+/// [`ColorError`] when the table's wavelengths make no colour.
+pub fn rotational_xyz(
+    table: &PhaseTable,
+    element: usize,
+    illuminant: Illuminant,
+    observer: Observer,
+    sun_radius: f64,
+    out: &[f64],
+) -> Result<Vec<[f64; 3]>, ColorError> {
+    let axes = &table.header.axes;
+    let weights = ColorWeights::new(&axes.wavelength, illuminant, observer)?;
+    let mut xyz = vec![[0.0; 3]; out.len()];
+    for (slab, weight) in table.slabs.iter().zip(&weights.weights) {
+        let column: Vec<f64> = slab
+            .values
+            .index_axis(ndarray::Axis(0), element)
+            .column(0)
+            .iter()
+            .map(|&v| f64::from(v))
+            .collect();
+        let smooth = smooth_over_sun(&axes.theta, &column, slab.wavelength, sun_radius, out);
+        for (sum, value) in xyz.iter_mut().zip(smooth) {
+            for c in 0..3 {
+                sum[c] += weight[c] * value;
+            }
+        }
+    }
+    Ok(xyz)
+}
