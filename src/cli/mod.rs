@@ -2,7 +2,7 @@
 //! output, progress bars and `anyhow`.
 
 mod interrupt;
-#[allow(dead_code)] // used by the commands that draw
+mod material;
 mod plot;
 mod scene_flags;
 mod table;
@@ -39,6 +39,7 @@ Exit codes: 0 done, 1 failed while running, 2 wrong input.";
 
 #[derive(Subcommand)]
 enum Command {
+    Material(material::MaterialArgs),
     Table(table::TableArgs),
 }
 
@@ -57,6 +58,7 @@ pub fn main() -> ExitCode {
 
 fn run(command: Command) -> anyhow::Result<()> {
     match command {
+        Command::Material(args) => material::run(args),
         Command::Table(args) => table::run(args),
     }
 }
