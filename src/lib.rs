@@ -20,7 +20,6 @@ pub mod medium;
 pub mod optics;
 pub mod shape;
 
-pub mod pending_file;
 pub mod phase_table;
 pub mod scene;
 

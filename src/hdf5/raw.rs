@@ -46,6 +46,8 @@ pub(super) enum Kind {
     U8,
     /// Strings of this many bytes, padded with zeros.
     Text(usize),
+    /// Strings of any length: what h5netcdf and netCDF-C both show as text in variables.
+    Texts,
 }
 
 impl Kind {
@@ -55,6 +57,7 @@ impl Kind {
             Kind::F64 => 8,
             Kind::U8 => 1,
             Kind::Text(length) => length,
+            Kind::Texts => size_of::<*const c_char>(),
         }
     }
 }
@@ -177,6 +180,14 @@ impl NewDataset {
         })
     }
 
+    /// Write all strings of a dataset of [`Kind::Texts`].
+    pub fn write_texts(&self, texts: &[String]) -> Result<(), TableError> {
+        assert_eq!(self.kind, Kind::Texts, "a dataset of strings");
+        let texts = texts.iter().map(|text| c_text(&self.path, text));
+        let texts = texts.collect::<Result<Vec<CString>, _>>()?;
+        self.write(&texts.iter().map(|text| text.as_ptr()).collect::<Vec<_>>())
+    }
+
     /// Write one chunk as it is, already through the dataset's filters.
     pub fn write_chunk(&self, offset: &[u64], bytes: &[u8]) -> Result<(), TableError> {
         assert_eq!(offset.len(), self.shape.len(), "one offset per dimension");
@@ -275,12 +286,17 @@ unsafe fn datatype(path: &Path, kind: Kind) -> Result<Id, TableError> {
         Kind::F64 => *H5T_IEEE_F64LE,
         Kind::I32 => *H5T_STD_I32LE,
         Kind::U8 => *H5T_STD_U8LE,
-        Kind::Text(_) => *H5T_C_S1,
+        Kind::Text(_) | Kind::Texts => *H5T_C_S1,
     };
     let id = owned(path, unsafe { h5t::H5Tcopy(base) }, h5t::H5Tclose)?;
-    if let Kind::Text(length) = kind {
+    let size = match kind {
+        Kind::Text(length) => Some(length.max(1)),
+        Kind::Texts => Some(h5t::H5T_VARIABLE),
+        _ => None,
+    };
+    if let Some(size) = size {
         unsafe {
-            done(path, h5t::H5Tset_size(id.id, length.max(1)))?;
+            done(path, h5t::H5Tset_size(id.id, size))?;
             done(path, h5t::H5Tset_cset(id.id, h5t::H5T_cset_t::H5T_CSET_UTF8))?;
         }
     }

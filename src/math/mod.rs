@@ -1,5 +1,5 @@
 //! Mathematics without physics: special functions, kernels, interpolation, quadrature.
 
+pub mod riccati_bessel;
 pub mod scalar;
 pub mod vec3;
-pub mod riccati_bessel;
