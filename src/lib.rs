@@ -25,10 +25,12 @@ pub mod scene;
 
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-
+pub mod plan;
 pub mod render;
 pub mod series;
 
 pub mod trace;
 
 pub mod farfield;
+
+pub mod simulate;

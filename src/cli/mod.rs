@@ -4,10 +4,12 @@
 mod interrupt;
 #[allow(dead_code)] // used by the commands that draw
 mod plot;
+mod scene_flags;
 mod table;
 
 use clap::{Parser, Subcommand};
 use gonio::medium::MediumError;
+use gonio::scene::SceneError;
 use std::process::ExitCode;
 
 /// Wrong input that only the command line knows of; ends the process with exit code 2.
@@ -68,7 +70,8 @@ fn start_threads(threads: Option<u16>) -> anyhow::Result<()> {
 
 /// Wrong input is told from failure by the kind of error anywhere in the chain of causes.
 fn exit_code(error: &anyhow::Error) -> u8 {
-    let wrong_input =
-        error.chain().any(|cause| cause.is::<UsageError>() || cause.is::<MediumError>());
+    let wrong_input = error.chain().any(|cause| {
+        cause.is::<UsageError>() || cause.is::<SceneError>() || cause.is::<MediumError>()
+    });
     if wrong_input { WRONG_INPUT } else { FAILED }
 }

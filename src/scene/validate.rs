@@ -13,20 +13,10 @@ use crate::shape::RaindropModel;
 const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 /// Radii of spheres and spheroids, millimetres: from a nanometre to a centimetre.
 const RADII_MM: std::ops::RangeInclusive<f64> = 1e-6..=10.0;
-/// Smallest raindrop, millimetres: a micrometre.
-const SMALLEST_RAINDROP_MM: f64 = 1e-3;
 /// Highest order that may be asked for by name.
 const MAX_ORDER: u32 = 100;
 /// Mantissa bits of an `f32` without the implied one.
 const MANTISSA_BITS: u8 = 23;
-
-/// Largest drop of a shape model, millimetres: the last row of its table.
-fn largest_raindrop_mm(model: RaindropModel) -> f64 {
-    match model {
-        RaindropModel::BeardChuang1987 => 3.0,
-        RaindropModel::ChuangBeard1990 => 4.5,
-    }
-}
 
 impl SceneFile {
     /// Check everything and convert to metres and radians.
@@ -161,17 +151,21 @@ fn plain_radius(radius_mm: f64) -> Result<(), String> {
 }
 
 fn raindrop_radius(model: RaindropModel, radius_mm: f64) -> Result<(), String> {
-    let largest = largest_raindrop_mm(model);
-    if (SMALLEST_RAINDROP_MM..=largest).contains(&radius_mm) {
+    let range_mm = |model: RaindropModel| {
+        let (from, to) = model.radius_range();
+        (from * 1e3, to * 1e3)
+    };
+    let (from, to) = range_mm(model);
+    if (from..=to).contains(&radius_mm) {
         return Ok(());
     }
-    let (name, wider) = (model.name(), RaindropModel::ChuangBeard1990);
-    let mut message = format!(
-        "the raindrop model {name} holds for radii of {SMALLEST_RAINDROP_MM} to {largest} mm"
-    );
-    if radius_mm > largest && radius_mm <= largest_raindrop_mm(wider) {
-        message +=
-            &format!("; model = \"{}\" reaches {}", wider.name(), largest_raindrop_mm(wider));
+    let mut message =
+        format!("the raindrop model {} holds for radii of {from} to {to} mm", model.name());
+    for (name, wider) in RaindropModel::NAMES {
+        let (from, to) = range_mm(*wider);
+        if (from..=to).contains(&radius_mm) {
+            message += &format!("; model = \"{name}\" reaches {to} mm");
+        }
     }
     Err(message)
 }
@@ -192,9 +186,12 @@ fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
 
 fn medium_of(keys: &ParticleKeys, wavelengths: &[f64]) -> Result<Medium, SceneError> {
     const KEY: &str = "particle.medium";
-    let spec = keys.medium.clone().unwrap_or_default();
-    let medium =
-        spec.resolve(keys.temperature_c).map_err(|source| SceneError::medium(KEY, source))?;
+    let mut spec = keys.medium.clone().unwrap_or_default();
+    if let (MediumSpec::Named(named), Some(celsius)) = (&mut spec, keys.temperature_c) {
+        named.temperature_c = Some(celsius);
+    }
+    let here = std::path::Path::new("");
+    let medium = spec.resolve(here).map_err(|source| SceneError::medium(KEY, source))?;
     for wavelength in wavelengths {
         let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
         if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {
