@@ -128,6 +128,11 @@ impl NewFile {
             // SAFETY: identifiers are checked, shapes and chunk shapes have the same rank.
             let creation = property_list(path, *H5P_DATASET_CREATE)?;
             done(path, h5p::H5Pset_obj_track_times(creation.id, 0))?;
+            if kind == Kind::F32 {
+                let nothing = f32::NAN;
+                let (kind, value) = (*H5T_IEEE_F32LE, (&raw const nothing).cast::<c_void>());
+                done(path, h5p::H5Pset_fill_value(creation.id, kind, value))?;
+            }
             if let Some(chunking) = chunking {
                 let rank = shape.len() as c_int;
                 done(path, h5p::H5Pset_chunk(creation.id, rank, chunking.shape.as_ptr()))?;

@@ -214,6 +214,7 @@ fn read_angles(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
     Ok(read_line(file, name)?.iter().map(|degrees| degrees / 180.0 * PI).collect())
 }
 
+/// A scalar variable; NaN where it is an axis of a sweep.
 fn read_scalar(file: &OpenFile, name: &str) -> Result<f64, TableError> {
     let data = file.required(name)?;
     if data.shape.is_empty() { Ok(data.read::<f64>()?[0]) } else { Ok(f64::NAN) }
