@@ -128,7 +128,8 @@ impl<'a, T: Scalar> Line<'a, T> {
             // (F/t)' = (F' - F/t)/t
             let step = f / (slope - f / t);
             let mut next = t - step;
-            if !(next.re() > low * 0.5 && next.re() < high * 1.5) {
+            // A complex chord has no order on it, and starts close to its root.
+            if T::REAL && !(next.re() > low * 0.5 && next.re() < high * 1.5) {
                 next = T::real(0.5 * (low + high));
             }
             let change = (next - t).size();
@@ -158,7 +159,7 @@ impl<'a, T: Scalar> Line<'a, T> {
                 high = t.re()
             }
             let mut next = t - f / slope;
-            if !(next.re() >= low && next.re() <= high) {
+            if T::REAL && !(next.re() >= low && next.re() <= high) {
                 next = T::real(0.5 * (low + high));
             }
             let change = (next - t).size();
@@ -189,7 +190,7 @@ impl<'a, T: Scalar> Line<'a, T> {
             }
         }
         let depth = self.at(t).0;
-        if depth.re() > 0.0 {
+        if T::REAL && depth.re() > 0.0 {
             return None;
         }
         Some((t, t - (-(depth * 2.0) / self.bend(t)).root()))

@@ -59,6 +59,34 @@ impl<'a> Tracer<'a> {
         self.last_order
     }
 
+    /// Trace the ray launched at `(u, v)` up to one order, and visit only that order's exit.
+    pub fn trace_order<T: Scalar>(
+        &self,
+        u: T,
+        v: T,
+        order: u32,
+        visit: impl FnOnce(Exit<T>),
+    ) -> Option<()> {
+        let mut ray = self.launch(u, v)?;
+        let mut tangent = self.shape.tangent(ray.position);
+        let event = Event::new(&mut ray, &tangent, self.index);
+        if order == 0 {
+            visit(leave(0, event.reflect(&ray)));
+            return Some(());
+        }
+        let mut inside = event.refract(&ray, 1.0 / self.index.re)?;
+        for _ in 1..order {
+            self.cross(&mut inside, &tangent);
+            tangent = self.shape.tangent(inside.position);
+            inside = Event::new(&mut inside, &tangent, self.index.inv()).reflect(&inside);
+        }
+        self.cross(&mut inside, &tangent);
+        tangent = self.shape.tangent(inside.position);
+        let event = Event::new(&mut inside, &tangent, self.index.inv());
+        visit(leave(order, event.refract(&inside, self.index.re)?));
+        Some(())
+    }
+
     /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
     /// `None` when the ray misses the particle.
     pub fn trace<T: Scalar>(
