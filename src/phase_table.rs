@@ -342,8 +342,10 @@ impl Slab {
         };
         let sum = self.sum(&header.axes);
         if header.axes.cover_sphere() && (sum - expected).abs() > NORMALISATION_TOLERANCE {
-            let accepted =
-                format!("{expected:.6} ± {NORMALISATION_TOLERANCE} at {} nm", self.wavelength * 1e9);
+            let accepted = format!(
+                "{expected:.6} ± {NORMALISATION_TOLERANCE} at {} nm",
+                self.wavelength * 1e9
+            );
             return Err(invalid("sum of P times solid angle", sum, &accepted));
         }
         Ok(())
