@@ -34,3 +34,6 @@ pub mod trace;
 pub mod farfield;
 
 pub mod simulate;
+
+#[cfg(feature = "hdf5")]
+pub mod batch;
