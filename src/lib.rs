@@ -13,6 +13,7 @@
 //! `math`.
 
 pub mod math;
+pub mod pending_file;
 
 pub mod color;
 pub mod medium;
@@ -22,9 +23,14 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
+pub mod plan;
 pub mod render;
 pub mod series;
 
 pub mod trace;
 
 pub mod farfield;
+
+pub mod simulate;

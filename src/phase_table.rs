@@ -125,15 +125,19 @@ impl Axes {
     /// sample only. A φ axis that closes (first + 2π = last) gives half cells to both ends; one
     /// that wraps (last + step = first + 2π) gives full cells; a single φ stands for 2π.
     pub fn solid_angle(&self) -> Array2<f64> {
-        let theta = theta_weights(&self.theta);
-        let phi = phi_weights(&self.phi);
+        let (theta, phi) = self.solid_angle_factors();
         Array2::from_shape_fn((theta.len(), phi.len()), |(i, j)| theta[i] * phi[j])
+    }
+
+    /// The two factors of [`Axes::solid_angle`]: a weight per θ and a width (radians) per φ.
+    pub fn solid_angle_factors(&self) -> (Vec<f64>, Vec<f64>) {
+        (theta_weights(&self.theta), phi_weights(&self.phi))
     }
 }
 
 /// `cos` of the cell's upper edge minus `cos` of its lower edge, per θ sample.
 fn theta_weights(theta: &[f64]) -> Vec<f64> {
-    let last = theta.len() - 1;
+    let last = theta.len().saturating_sub(1);
     let edge = |i: usize| 0.5 * (theta[i] + theta[i + 1]);
     (0..theta.len())
         .map(|i| {
@@ -149,8 +153,8 @@ fn theta_weights(theta: &[f64]) -> Vec<f64> {
 fn phi_weights(phi: &[f64]) -> Vec<f64> {
     use std::f64::consts::TAU;
     let count = phi.len();
-    if count == 1 {
-        return vec![TAU];
+    if count < 2 {
+        return vec![TAU; count];
     }
     let span = phi[count - 1] - phi[0];
     let last_step = phi[count - 1] - phi[count - 2];
@@ -174,4 +178,62 @@ fn phi_weights(phi: &[f64]) -> Vec<f64> {
             0.5 * (below + above)
         })
         .collect()
+}
+
+/// What is wrong with a table or its header: the field, the value, what is accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field} = {value}: {accepted}")]
+pub struct InvalidTable {
+    pub field: String,
+    pub value: String,
+    pub accepted: String,
+}
+
+fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
+    InvalidTable { field: field.into(), value: value.to_string(), accepted: accepted.into() }
+}
+
+impl Axes {
+    /// # Errors
+    /// When an axis is empty, not finite, not ascending (θ, φ) or out of its range.
+    pub fn validate(&self) -> Result<(), InvalidTable> {
+        use std::f64::consts::{PI, TAU};
+        if self.wavelength.is_empty() {
+            return Err(invalid("wavelengths", "none", "at least one wavelength"));
+        }
+        if let Some(bad) = self.wavelength.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
+            return Err(invalid("wavelength", bad, "a positive length in metres"));
+        }
+        ascending("theta", &self.theta, PI)?;
+        ascending("phi", &self.phi, TAU)
+    }
+}
+
+/// Angles finite, strictly ascending, within [0, most] up to rounding.
+fn ascending(field: &str, angles: &[f64], most: f64) -> Result<(), InvalidTable> {
+    if angles.is_empty() {
+        return Err(invalid(field, "none", "at least one angle"));
+    }
+    let within = |angle: f64| (-1e-9..=most * (1.0 + 1e-9)).contains(&angle);
+    if let Some(bad) = angles.iter().find(|angle| !within(**angle)) {
+        let accepted = format!("angles from 0 to {most:.4} radians");
+        return Err(invalid(field, bad, &accepted));
+    }
+    match angles.windows(2).find(|pair| pair[0] >= pair[1]) {
+        Some(pair) => Err(invalid(field, pair[1], "angles must ascend")),
+        None => Ok(()),
+    }
+}
+
+impl TableHeader {
+    /// # Errors
+    /// When an axis is wrong, or `rotational_symmetry` contradicts the azimuths.
+    pub fn validate(&self) -> Result<(), InvalidTable> {
+        self.axes.validate()?;
+        if self.rotational_symmetry && self.axes.phi.len() != 1 {
+            let accepted = "one azimuth where the scattering does not depend on it";
+            return Err(invalid("phi", format!("{} azimuths", self.axes.phi.len()), accepted));
+        }
+        Ok(())
+    }
 }

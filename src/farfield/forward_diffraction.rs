@@ -26,6 +26,8 @@ pub struct ForwardDiffraction {
 /// Number of points on the outline; the line integral serves while `x sin θ` is below `LINE_UP_TO`.
 const POINTS: usize = 1024;
 const LINE_UP_TO: f64 = 100.0;
+/// Angle in units of `x^(-1/3)` at which edge waves fade.
+const FADE: f64 = 2.0;
 
 impl ForwardDiffraction {
     /// Measure the outline.
@@ -67,6 +69,14 @@ impl ForwardDiffraction {
             } else {
                 self.two_points(q, direction.phi)
             }
+    }
+
+    /// The amplitude with the fading of its edge waves: beyond the penumbra, `θ x^(1/3)` of a few,
+    /// grazing reflection and creeping waves take the place of the sharp edge. The fade follows
+    /// exact Debye terms of spheres (x = 100, 1000).
+    pub fn tail(&self, size_parameter: f64, direction: &Direction) -> Complex64 {
+        let penumbra = direction.theta * size_parameter.cbrt() / FADE;
+        self.amplitude(size_parameter, direction) / (1.0 + penumbra.powi(2)).powi(2)
     }
 
     /// `∬ exp(-iq·r) dA` as an integral along the outline; the divergence theorem with a vector

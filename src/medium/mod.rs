@@ -1,9 +1,41 @@
 //! Media: the complex refractive index `n + ik` by wavelength in vacuum.
+//!
+//! [`MediumSpec`] is what a scene file says; [`MediumSpec::resolve`] makes a [`Medium`], which
+//! answers [`Medium::index`]. Outside the data there is an error, never a guess, unless the user
+//! asked for one. Water is relative to vacuum; glasses are as catalogues give them, relative to
+//! air, which this program takes as index 1.
 
+mod abbe;
+mod band_model;
+mod csv_table;
+mod daimon;
+mod formula;
+pub mod kramers_kronig;
+mod library;
+mod material;
+mod refractive_index_info;
+mod sea_water;
+mod solution;
+mod spec;
+mod table;
 mod water;
+mod water_absorption;
+
+pub use abbe::{Abbe, AbbeLines, abbe_to_sellmeier, fit_cauchy};
+pub use band_model::BandModel;
+pub use csv_table::read as read_csv;
+pub use daimon::Daimon;
+pub use formula::Formula;
+pub use library::{LibraryEntry, list};
+pub use material::{Material, RealIndex};
+pub use refractive_index_info::read as read_yaml;
+pub use solution::{Dye, Solution};
+pub use spec::{MediumSpec, NamedSpec};
+pub use table::Table;
 
 use num_complex::Complex64;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What went wrong with a medium: the field or file, the value, and what is accepted.
 #[derive(Debug, thiserror::Error)]
@@ -16,6 +48,11 @@ pub enum MediumError {
     Invalid { field: String, value: String, accepted: String },
     #[error("{}{}: {message}", path.display(), line.map(|l| format!(", line {l}")).unwrap_or_default())]
     File { path: PathBuf, line: Option<usize>, message: String },
+    #[error(
+        "unknown medium \"{name}\"{}; gonio material --list shows all names",
+        nearest.as_ref().map(|n| format!(", did you mean \"{n}\"?")).unwrap_or_default()
+    )]
+    Unknown { name: String, nearest: Option<String> },
 }
 
 /// A medium, ready to be asked for its index. A closed set: one arm per kind, one file per kind.
@@ -23,8 +60,18 @@ pub enum MediumError {
 pub enum Medium {
     /// The same index at every wavelength.
     Constant(Complex64),
-    /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm.
+    /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables.
     Water { temperature: f64 },
+    /// Water or steam of any density (kg/m³), temperature in kelvin.
+    WaterOfDensity { temperature: f64, density: f64 },
+    /// Sea water, temperature in kelvin, salinity in g/kg.
+    SeaWater { temperature: f64, salinity: f64 },
+    /// Distilled water after Daimon & Masumura.
+    Daimon(Arc<Daimon>),
+    /// A material by a formula or a table.
+    Material(Arc<Material>),
+    /// A dye in a host.
+    Solution(Arc<Solution>),
 }
 
 impl Medium {
@@ -33,6 +80,104 @@ impl Medium {
         match self {
             Medium::Constant(index) => Ok(*index),
             Medium::Water { temperature } => water::index(wavelength, *temperature),
+            Medium::WaterOfDensity { temperature, density } => {
+                water::at_density(wavelength, *temperature, *density)
+            }
+            Medium::SeaWater { temperature, salinity } => {
+                sea_water::index(wavelength, *temperature, *salinity)
+            }
+            Medium::Daimon(water) => water.index(wavelength),
+            Medium::Material(material) => material.index(wavelength),
+            Medium::Solution(solution) => solution.index(wavelength),
         }
     }
+
+    /// Wavelengths in metres that the data cover; a material that extrapolates answers beyond.
+    pub fn valid_range(&self) -> (f64, f64) {
+        match self {
+            Medium::Constant(_) => (0.0, f64::INFINITY),
+            Medium::Water { .. } | Medium::WaterOfDensity { .. } => water::RANGE,
+            Medium::SeaWater { .. } => sea_water::RANGE,
+            Medium::Daimon(water) => water.range(),
+            Medium::Material(material) => material.range,
+            Medium::Solution(solution) => solution.range(),
+        }
+    }
+
+    /// What it is called, with its conditions.
+    pub fn name(&self) -> String {
+        let celsius = |kelvin: f64| format!("{:.2} °C", kelvin - 273.15);
+        match self {
+            Medium::Constant(index) => format!("constant {} + {}i", index.re, index.im),
+            Medium::Water { temperature } => format!("water at {}", celsius(*temperature)),
+            Medium::WaterOfDensity { temperature, density } => {
+                format!("water at {}, {density} kg/m³", celsius(*temperature))
+            }
+            Medium::SeaWater { temperature, salinity } => {
+                format!("sea water at {}, {salinity} g/kg", celsius(*temperature))
+            }
+            Medium::Daimon(water) => format!("water-daimon at {}", celsius(water.temperature())),
+            Medium::Material(material) => material.name.clone(),
+            Medium::Solution(solution) => solution.name(),
+        }
+    }
+
+    /// Where the data are from; says so where a material extrapolates.
+    pub fn source(&self) -> String {
+        match self {
+            Medium::Constant(_) => "given".into(),
+            Medium::Water { .. } | Medium::WaterOfDensity { .. } => water::SOURCE.into(),
+            Medium::SeaWater { .. } => sea_water::SOURCE.into(),
+            Medium::Daimon(water) => water.source().into(),
+            Medium::Material(m) if m.extrapolate => {
+                let (from, to) = m.range;
+                format!("{} | extrapolated beyond {} to {} nm", m.source, from * 1e9, to * 1e9)
+            }
+            Medium::Material(material) => material.source.clone(),
+            Medium::Solution(solution) => solution.source(),
+        }
+    }
+
+    /// Refuses temperatures, densities and salinities outside the data.
+    fn check_conditions(&self) -> Result<(), MediumError> {
+        match self {
+            Medium::Water { temperature } => water::check_temperature(*temperature, false),
+            Medium::WaterOfDensity { temperature, density } => {
+                water::check_temperature(*temperature, true)?;
+                water::check_density(*density)
+            }
+            Medium::SeaWater { temperature, salinity } => {
+                sea_water::check_conditions(*temperature, *salinity)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Refuses wavelengths (metres) outside a range, with a slack of a part in 10¹² for rounding.
+fn check_range(name: &str, wavelength: f64, range: (f64, f64)) -> Result<(), MediumError> {
+    if wavelength >= range.0 * (1.0 - 1e-12) && wavelength <= range.1 * (1.0 + 1e-12) {
+        return Ok(());
+    }
+    // Nanometres to a millionth: 400 reads better than 400.00000000000006.
+    let nm = |metres: f64| (metres * 1e15).round() / 1e6;
+    Err(MediumError::OutOfRange {
+        name: name.into(),
+        wavelength_nm: nm(wavelength),
+        from_nm: nm(range.0),
+        to_nm: nm(range.1),
+    })
+}
+
+/// Largest file of optical data that is read, bytes; the largest of the databases has 2 MB.
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// The text of a file of optical data.
+fn read_text(path: &Path) -> Result<String, MediumError> {
+    let fail = |message: String| MediumError::File { path: path.into(), line: None, message };
+    let size = std::fs::metadata(path).map_err(|e| fail(e.to_string()))?.len();
+    if size > LARGEST_FILE {
+        return Err(fail(format!("{size} bytes, at most {LARGEST_FILE} are read")));
+    }
+    std::fs::read_to_string(path).map_err(|e| fail(e.to_string()))
 }

@@ -1,9 +1,38 @@
 //! The scene: `SceneFile` mirrors the TOML and the flags; `Scene` is validated and immutable.
 //! After validation, physics does not fail.
+//!
+//! ```
+//! use gonio::scene::{Scene, SceneFile};
+//!
+//! let scene = Scene::built_in(&SceneFile::default())?;
+//! assert_eq!(scene.wavelengths.len(), 33);
+//! # Ok::<(), gonio::scene::SceneError>(())
+//! ```
+
+mod choice;
+mod error;
+mod file;
+mod grid;
+mod read;
+mod size;
+#[cfg(test)]
+mod tests;
+mod validate;
+
+pub use choice::{Choice, Named, ShapeName};
+pub use error::{Place, SceneError};
+pub use file::{LightKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
+pub use grid::Grid;
+pub use read::SceneText;
+pub use size::{TableSize, human_bytes};
 
 use crate::medium::Medium;
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
+use std::path::Path;
+
+/// The scene that is taken where none is given: a raindrop of 0.5 mm, the sun at 20°.
+pub const BUILT_IN: &str = include_str!("../../data/scenes/raindrop.toml");
 
 /// What scatters. Radii are those of the sphere of equal volume, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +91,8 @@ pub struct Scene {
     pub phi: Vec<f64>,
     pub quantity: Quantity,
     pub forward_peak: ForwardPeak,
+    /// Bits of the mantissa that the file keeps of each value; `None`: all.
+    pub bit_round: Option<u8>,
     pub method: Method,
     pub interference: bool,
     pub diffraction: Diffraction,
@@ -71,4 +102,33 @@ pub struct Scene {
     pub rays_across: Option<usize>,
     /// The scene resolved, as TOML, for the record.
     pub toml: String,
+}
+
+impl Scene {
+    /// Read and check a scene file; every key that `flags` gives replaces that of the file.
+    ///
+    /// # Errors
+    /// With the line of the file, or the flag, the value and what is accepted.
+    pub fn load(path: &Path, flags: &SceneFile) -> Result<Scene, SceneError> {
+        Scene::from_text(SceneText::load(path)?, flags)
+    }
+
+    /// The built-in scene, with what `flags` gives replaced.
+    ///
+    /// # Errors
+    /// As for [`Scene::load`].
+    pub fn built_in(flags: &SceneFile) -> Result<Scene, SceneError> {
+        Scene::from_text(SceneText::parse("built-in scene", BUILT_IN.to_string())?, flags)
+    }
+
+    /// Check a scene that was read.
+    ///
+    /// # Errors
+    /// As for [`Scene::load`].
+    pub fn from_text(text: SceneText, flags: &SceneFile) -> Result<Scene, SceneError> {
+        let merged = text.file.clone().overridden_by(flags);
+        merged.validate().map_err(|error| {
+            error.placed(|key| if flags.has(key) { Place::flag(key) } else { text.place_of(key) })
+        })
+    }
 }

@@ -4,6 +4,7 @@
 //! over the angles.
 
 pub mod angular;
+pub mod debye;
 pub mod lorenz_mie;
 
 use num_complex::Complex64;

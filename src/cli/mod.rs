@@ -1,0 +1,77 @@
+//! The commands of `gonio`, one file each: parse, call the library, write. Only here live terminal
+//! output, progress bars and `anyhow`.
+
+mod interrupt;
+#[allow(dead_code)] // used by the commands that draw
+mod plot;
+mod scene_flags;
+mod table;
+
+use clap::{Parser, Subcommand};
+use gonio::medium::MediumError;
+use gonio::scene::SceneError;
+use std::process::ExitCode;
+
+/// Wrong input that only the command line knows of; ends the process with exit code 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct UsageError(pub String);
+
+/// Exit code: the computation failed.
+const FAILED: u8 = 1;
+/// Exit code: the input was wrong. The same as clap's own.
+const WRONG_INPUT: u8 = 2;
+
+/// The virtual gonioreflectometer: how one particle scatters light.
+#[derive(Parser)]
+#[command(version, about, arg_required_else_help = true, after_help = AFTER_HELP)]
+struct Cli {
+    /// Threads to compute with (default: all cores)
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+const AFTER_HELP: &str = "Example: gonio table -o raindrop.h5
+
+Exit codes: 0 done, 1 failed while running, 2 wrong input.";
+
+#[derive(Subcommand)]
+enum Command {
+    Table(table::TableArgs),
+}
+
+/// Parse the command line, run the command, map errors to exit codes.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    interrupt::install();
+    match start_threads(cli.threads).and_then(|()| run(cli.command)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(exit_code(&error))
+        }
+    }
+}
+
+fn run(command: Command) -> anyhow::Result<()> {
+    match command {
+        Command::Table(args) => table::run(args),
+    }
+}
+
+fn start_threads(threads: Option<u16>) -> anyhow::Result<()> {
+    if let Some(threads) = threads {
+        rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()?;
+    }
+    Ok(())
+}
+
+/// Wrong input is told from failure by the kind of error anywhere in the chain of causes.
+fn exit_code(error: &anyhow::Error) -> u8 {
+    let wrong_input = error.chain().any(|cause| {
+        cause.is::<UsageError>() || cause.is::<SceneError>() || cause.is::<MediumError>()
+    });
+    if wrong_input { WRONG_INPUT } else { FAILED }
+}

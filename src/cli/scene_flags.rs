@@ -1,0 +1,210 @@
+//! A flag for every key of a scene file, of the same name; flags win over the file.
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use gonio::medium::MediumSpec;
+use gonio::phase_table::{ForwardPeak, Quantity};
+use gonio::scene::{
+    Choice, Diffraction, Grid, LightKeys, Method, ModelKeys, Named, Orders, ParticleKeys, Scene,
+    SceneError, SceneFile, ShapeName, TableKeys,
+};
+use gonio::shape::RaindropModel;
+use std::path::Path;
+
+/// All keys of a scene.
+#[derive(Args, Clone, Debug, Default)]
+pub struct SceneFlags {
+    #[command(flatten)]
+    pub particle: ParticleFlags,
+    #[command(flatten)]
+    pub light: LightFlags,
+    #[command(flatten)]
+    pub table: TableFlags,
+    #[command(flatten)]
+    pub model: ModelFlags,
+}
+
+/// What scatters.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Particle")]
+pub struct ParticleFlags {
+    /// Kind of particle
+    #[arg(long, value_parser = word::<ShapeName>())]
+    pub shape: Option<Choice<ShapeName>>,
+    /// Radius of the sphere of equal volume
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub radius_mm: Option<f64>,
+    /// The same in micrometres
+    #[arg(long, value_name = "UM", allow_negative_numbers = true, conflicts_with = "radius_mm")]
+    pub radius_um: Option<f64>,
+    /// Diameter of the sphere of equal volume
+    #[arg(long, value_name = "MM", allow_negative_numbers = true,
+          conflicts_with_all = ["radius_mm", "radius_um"])]
+    pub diameter_mm: Option<f64>,
+    /// Vertical over horizontal diameter of a spheroid
+    #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
+    pub axis_ratio: Option<f64>,
+    /// Shape model of a raindrop
+    #[arg(long, value_parser = word::<RaindropModel>())]
+    pub model: Option<Choice<RaindropModel>>,
+    /// Medium of the particle, by name
+    #[arg(long, value_name = "NAME")]
+    pub medium: Option<String>,
+    /// Constant index n+ik of the particle in place of a medium
+    #[arg(long, value_name = "N[+K]", value_parser = parse_index, conflicts_with = "medium")]
+    pub index: Option<[f64; 2]>,
+    /// Temperature of the medium
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub temperature_c: Option<f64>,
+}
+
+/// What shines on it.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Light")]
+pub struct LightFlags {
+    /// Sun above the horizon
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub sun_elevation_deg: Option<f64>,
+    /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
+    #[arg(long, value_name = "NM", allow_hyphen_values = true)]
+    pub wavelengths_nm: Option<Grid>,
+}
+
+/// What is tabulated, and where.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Table")]
+pub struct TableFlags {
+    /// Scattering angles: FROM:TO:COUNT or A,B,C
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub theta_deg: Option<Grid>,
+    /// Azimuths: FROM:TO:COUNT or A,B,C
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub azimuth_deg: Option<Grid>,
+    /// Unpolarised phase function, or all Mueller elements
+    #[arg(long, value_parser = word::<Quantity>())]
+    pub quantity: Option<Choice<Quantity>>,
+    /// How the forward diffraction peak enters
+    #[arg(long, value_parser = word::<ForwardPeak>())]
+    pub forward_peak: Option<Choice<ForwardPeak>>,
+    /// Keep so many bits of each value's mantissa, for a smaller file
+    #[arg(long, value_name = "BITS")]
+    pub bit_round: Option<u8>,
+}
+
+/// How it is computed.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Model")]
+pub struct ModelFlags {
+    /// Rays, an exact series for spheres, or whichever suits
+    #[arg(long, value_parser = word::<Method>())]
+    pub method: Option<Choice<Method>>,
+    /// Add rays with their phases
+    #[arg(long, value_name = "true|false")]
+    pub interference: Option<bool>,
+    /// Diffraction in the ray method
+    #[arg(long, value_parser = word::<Diffraction>())]
+    pub diffraction: Option<Choice<Diffraction>>,
+    /// `auto`, or a list such as 0,1,2
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub orders: Option<Orders>,
+    /// Relative error asked for
+    #[arg(long, value_name = "ERROR", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
+    /// Rays across the silhouette (default: chosen from the tolerance)
+    #[arg(long, value_name = "N")]
+    pub rays_across: Option<u32>,
+}
+
+/// Parser of a word from a closed set; `--help` lists the set.
+fn word<T: Named + Send + Sync>() -> impl TypedValueParser<Value = Choice<T>> {
+    PossibleValuesParser::new(T::NAMES.iter().map(|(name, _)| *name))
+        .try_map(|word| T::from_name(&word).map(Choice))
+}
+
+/// `1.333`, `1.333+0.001`
+pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
+    let accepted = || format!("\"{text}\" is not an index; accepted: N or N+K, as in 1.333+0.001");
+    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| accepted());
+    // The plus sign of an exponent, as in 1e+0, does not separate the parts.
+    let separator = text
+        .char_indices()
+        .skip(1)
+        .find(|(i, c)| *c == '+' && !text[..*i].ends_with(['e', 'E']))
+        .map(|(i, _)| i);
+    match separator {
+        Some(i) => Ok([number(&text[..i])?, number(&text[i + 1..])?]),
+        None => Ok([number(text)?, 0.0]),
+    }
+}
+
+impl ParticleFlags {
+    /// As keys of a scene.
+    pub fn keys(&self) -> ParticleKeys {
+        let named = self.medium.clone().map(|name| MediumSpec::name(&name));
+        let medium =
+            self.index.map(|index| MediumSpec::Index { n: index[0], k: index[1] }).or(named);
+        ParticleKeys {
+            shape: self.shape,
+            radius_mm: self.radius_mm,
+            radius_um: self.radius_um,
+            diameter_mm: self.diameter_mm,
+            axis_ratio: self.axis_ratio,
+            model: self.model,
+            temperature_c: self.temperature_c,
+            medium,
+        }
+    }
+}
+
+impl SceneFlags {
+    /// As keys of a scene.
+    pub fn keys(&self) -> SceneFile {
+        let (light, table, model) = (self.light.clone(), self.table.clone(), self.model.clone());
+        SceneFile {
+            particle: self.particle.keys(),
+            light: LightKeys {
+                sun_elevation_deg: light.sun_elevation_deg,
+                wavelengths_nm: light.wavelengths_nm,
+            },
+            table: TableKeys {
+                quantity: table.quantity,
+                forward_peak: table.forward_peak,
+                bit_round: table.bit_round,
+                theta_deg: table.theta_deg,
+                azimuth_deg: table.azimuth_deg,
+            },
+            model: ModelKeys {
+                method: model.method,
+                interference: model.interference,
+                diffraction: model.diffraction,
+                orders: model.orders,
+                tolerance: model.tolerance,
+                rays_across: model.rays_across,
+            },
+        }
+    }
+
+    /// The scene of a file, or the built-in one, with the flags laid over it.
+    pub fn scene(&self, path: Option<&Path>) -> Result<Scene, SceneError> {
+        match path {
+            Some(path) => Scene::load(path, &self.keys()),
+            None => Scene::built_in(&self.keys()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn indices_as_on_the_command_line() {
+        assert_eq!(parse_index("1.333"), Ok([1.333, 0.0]));
+        assert_eq!(parse_index("1.333+0.001"), Ok([1.333, 0.001]));
+        assert_eq!(parse_index("1.3e+0+1e-3"), Ok([1.3, 0.001]));
+        assert_eq!(parse_index("1.5+-2"), Ok([1.5, -2.0]));
+        for bad in ["", "+", "a", "1.3+", "1.3i", "1.3+0.1i"] {
+            assert!(parse_index(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! From columns of amplitudes to the values of one slab, normalised, with the forward peak in it.
+
+use super::forward_diffraction::ForwardDiffraction;
+use super::forward_peak::{self, ForwardCells};
+use super::{Direction, FarField, gaussian_filter};
+use crate::optics::AmplitudeMatrix;
+use crate::phase_table::{Axes, ForwardPeak, Quantity};
+use ndarray::{Array2, Array3, ArrayViewMut3, Axis};
+use rayon::prelude::*;
+
+/// What a column of the far field (all θ at one azimuth) holds.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Coherent amplitudes by θ, without forward diffraction.
+    pub amplitude: Vec<AmplitudeMatrix>,
+    /// Mueller matrices without interference; empty unless asked for.
+    pub incoherent: Vec<[[f64; 4]; 4]>,
+    /// Rays by order and θ; empty where not known.
+    pub rays: Vec<Vec<u16>>,
+    /// Caustic mask by θ; empty where not known.
+    pub caustic_order: Vec<u8>,
+}
+
+/// Settings of one slab.
+pub struct Tabulator<'a> {
+    pub theta: &'a [f64],
+    pub size_parameter: f64,
+    pub quantity: Quantity,
+    pub forward_peak: ForwardPeak,
+    pub interference: bool,
+    /// Standard deviation (radians) of the Gaussian filter, where it stands for diffraction.
+    pub filter: Option<f64>,
+    pub diffraction: Option<&'a ForwardDiffraction>,
+    /// Share of the intercepted power that is scattered.
+    pub scattered: f64,
+    /// Area of the shadow over the squared radius.
+    pub silhouette_area: f64,
+}
+
+/// The values of a slab and what was found on the way.
+pub struct Values {
+    pub values: Array3<f32>,
+    pub caustic_order: Option<Array2<u8>>,
+    pub sum_before_peak: f64,
+    pub peak_share: f64,
+    pub asymmetry: f64,
+}
+
+/// One computed azimuth, scaled to sr⁻¹ but for the rows of the forward peak.
+struct Line {
+    /// (element, θ)
+    values: Array2<f32>,
+    caustic_order: Vec<u8>,
+    forward: Vec<ForwardSample>,
+}
+
+/// A sample within the forward peak, before the peak is scaled.
+#[derive(Clone, Copy)]
+struct ForwardSample {
+    rest: [[f64; 4]; 4],
+    rest_amplitude: AmplitudeMatrix,
+    /// Diffracted amplitude at the sample, and mean diffracted intensity over its cell.
+    amplitude: num_complex::Complex64,
+    mean: f64,
+    coarse: bool,
+}
+
+impl Tabulator<'_> {
+    /// Fill a slab. `computed` are azimuths in [0, π]; `places` tells, for every azimuth of the
+    /// table, which of them serves it and whether as mirror image.
+    pub fn tabulate(
+        &self,
+        far_field: &FarField,
+        computed: &[f64],
+        places: &[(usize, bool)],
+        axes: &Axes,
+    ) -> Values {
+        let cells = self.forward_cells();
+        let lines: Vec<Line> =
+            computed.par_iter().map(|&phi| self.line(far_field, phi, &cells)).collect();
+        let weights = axes.solid_angle();
+        let elements = self.quantity.elements();
+        let mut values = Array3::<f32>::zeros((elements, axes.theta.len(), axes.phi.len()));
+        fill(values.view_mut(), &lines, places);
+        let (factor, sum_before_peak, peak_share) = self.close(&lines, places, &weights, &values);
+        self.write_forward(&mut values, &lines, places, factor);
+        let caustic_order = lines.iter().any(|l| !l.caustic_order.is_empty()).then(|| {
+            Array2::from_shape_fn((axes.theta.len(), axes.phi.len()), |(i, j)| {
+                lines[places[j].0].caustic_order.get(i).copied().unwrap_or(0)
+            })
+        });
+        let asymmetry = asymmetry(&values, &weights, &axes.theta);
+        Values { values, caustic_order, sum_before_peak, peak_share, asymmetry }
+    }
+
+    fn forward_cells(&self) -> ForwardCells {
+        let all = ForwardCells::new(self.theta, self.size_parameter);
+        if self.diffraction.is_none() || self.forward_peak == ForwardPeak::Separate {
+            return ForwardCells::none();
+        }
+        all
+    }
+
+    /// `k² C_sca` in units of the squared size parameter: what divides `S11`.
+    fn scale(&self) -> f64 {
+        let diffracted = if self.diffraction.is_some() { 1.0 } else { 0.0 };
+        let area = self.silhouette_area * (self.scattered + diffracted);
+        1.0 / (self.size_parameter * self.size_parameter * area)
+    }
+
+    fn line(&self, far_field: &FarField, phi: f64, cells: &ForwardCells) -> Line {
+        let mut column = far_field.column(self.theta, phi, !self.interference);
+        let scale = self.scale();
+        let forward: Vec<ForwardSample> =
+            (0..cells.cells.len()).map(|i| self.forward_sample(&column, cells, i, phi)).collect();
+        if let Some(peak) = self.diffraction.filter(|_| self.forward_peak != ForwardPeak::Separate)
+        {
+            for i in forward.len()..self.theta.len() {
+                let direction = Direction::new(self.theta[i], phi);
+                let tail = peak.tail(self.size_parameter, &direction);
+                forward_peak::add(&mut column.amplitude[i], tail);
+            }
+        }
+        let elements = self.quantity.elements();
+        let mut values = Array2::zeros((elements, self.theta.len()));
+        for i in forward.len()..self.theta.len() {
+            self.store(&column, i, |e, value| values[[e, i]] = (value * scale) as f32);
+        }
+        if let Some(sigma) = self.filter {
+            let bows = gaussian_filter::bows(self.theta, &column.rays);
+            for mut row in values.axis_iter_mut(Axis(0)) {
+                let raw: Vec<f64> = row.iter().map(|&v| f64::from(v)).collect();
+                let smooth = gaussian_filter::apply(self.theta, &raw, &bows, sigma);
+                row.iter_mut().zip(smooth).for_each(|(v, s)| *v = s as f32);
+            }
+        }
+        Line { values, caustic_order: column.caustic_order, forward }
+    }
+
+    /// Hand every element of sample `i` to `put`.
+    fn store(&self, column: &Column, i: usize, mut put: impl FnMut(usize, f64)) {
+        if self.interference && self.quantity == Quantity::PhaseFunction {
+            put(0, column.amplitude[i].s11());
+            return;
+        }
+        let mueller =
+            if self.interference { column.amplitude[i].mueller() } else { column.incoherent[i] };
+        let elements = self.quantity.elements();
+        for (e, value) in mueller.iter().flatten().take(elements).enumerate() {
+            put(e, *value);
+        }
+    }
+
+    fn forward_sample(
+        &self,
+        column: &Column,
+        cells: &ForwardCells,
+        i: usize,
+        phi: f64,
+    ) -> ForwardSample {
+        let rest_amplitude = column.amplitude[i];
+        let rest = if self.interference { rest_amplitude.mueller() } else { column.incoherent[i] };
+        let direction = Direction::new(self.theta[i], phi);
+        let Some(peak) = self.diffraction else {
+            unreachable!("forward cells exist only with diffraction")
+        };
+        let coarse = self.forward_peak == ForwardPeak::CellAverage && cells.is_coarse(i);
+        let mean = if coarse { cells.mean_intensity(peak, i, phi) } else { 0.0 };
+        let amplitude = peak.amplitude(self.size_parameter, &direction);
+        ForwardSample { rest, rest_amplitude, amplitude, mean, coarse }
+    }
+
+    /// Mueller matrix of a forward sample with the diffracted power scaled by `factor`.
+    fn forward_mueller(&self, sample: &ForwardSample, factor: f64) -> [[f64; 4]; 4] {
+        if self.interference && !sample.coarse {
+            let mut s = sample.rest_amplitude;
+            forward_peak::add(&mut s, sample.amplitude * factor.sqrt());
+            return s.mueller();
+        }
+        let power = if sample.coarse { sample.mean } else { sample.amplitude.norm_sqr() } * factor;
+        let mut mueller = sample.rest;
+        for (k, row) in mueller.iter_mut().enumerate() {
+            row[k] += power;
+        }
+        mueller
+    }
+
+    /// The factor on diffracted power that closes the budget, the sum before it, and the peak's
+    /// share of all scattered light.
+    fn close(
+        &self,
+        lines: &[Line],
+        places: &[(usize, bool)],
+        weights: &Array2<f64>,
+        values: &Array3<f32>,
+    ) -> (f64, f64, f64) {
+        let scale = self.scale();
+        let peak = values.index_axis(Axis(0), 0);
+        let rest: f64 = peak.iter().zip(weights).map(|(&v, w)| f64::from(v) * w).sum();
+        let forward = |factor: f64| -> f64 {
+            let mut sum = 0.0;
+            for (j, (line, _)) in places.iter().enumerate() {
+                for (i, sample) in lines[*line].forward.iter().enumerate() {
+                    sum += weights[[i, j]] * scale * self.forward_mueller(sample, factor)[0][0];
+                }
+            }
+            sum
+        };
+        let without = forward(0.0);
+        let with = forward(1.0);
+        let sum_before_peak = rest + with;
+        let covers_sphere = {
+            let total: f64 = weights.sum();
+            (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
+        };
+        let share = if self.diffraction.is_some() { 1.0 / (1.0 + self.scattered) } else { 0.0 };
+        if self.forward_peak != ForwardPeak::CellAverage || !covers_sphere || with <= without {
+            return (1.0, sum_before_peak, share);
+        }
+        // Secant steps: the sum is nearly linear in the factor.
+        let mut factor = 1.0;
+        for _ in 0..8 {
+            let sum = rest + forward(factor);
+            let slope = (sum - rest - without) / factor;
+            factor = (factor + (1.0 - sum) / slope).clamp(0.05, 4.0);
+            if (1.0 - sum).abs() < 1e-9 {
+                break;
+            }
+        }
+        (factor, sum_before_peak, share)
+    }
+
+    fn write_forward(
+        &self,
+        values: &mut Array3<f32>,
+        lines: &[Line],
+        places: &[(usize, bool)],
+        factor: f64,
+    ) {
+        let scale = self.scale();
+        let elements = self.quantity.elements();
+        for (j, &(line, mirrored)) in places.iter().enumerate() {
+            for (i, sample) in lines[line].forward.iter().enumerate() {
+                let mueller = self.forward_mueller(sample, factor);
+                for (e, value) in mueller.iter().flatten().take(elements).enumerate() {
+                    let sign = if mirrored { mirror_sign(e) } else { 1.0 };
+                    values[[e, i, j]] = (sign * value * scale) as f32;
+                }
+            }
+        }
+    }
+}
+
+/// Elements that change sign in the mirror image: those that couple I, Q with U, V.
+fn mirror_sign(element: usize) -> f64 {
+    let (row, column) = (element / 4, element % 4);
+    if (row < 2) == (column < 2) { 1.0 } else { -1.0 }
+}
+
+/// Spread computed lines over the azimuths of the table, θ rows in parallel.
+fn fill(mut values: ArrayViewMut3<f32>, lines: &[Line], places: &[(usize, bool)]) {
+    for (e, mut plane) in values.axis_iter_mut(Axis(0)).enumerate() {
+        plane.axis_iter_mut(Axis(0)).into_par_iter().enumerate().for_each(|(i, mut row)| {
+            for (value, &(line, mirrored)) in row.iter_mut().zip(places) {
+                let sign = if mirrored { mirror_sign(e) as f32 } else { 1.0 };
+                *value = sign * lines[line].values[[e, i]];
+            }
+        });
+    }
+}
+
+/// Mean cosine of the scattering angle over the samples.
+fn asymmetry(values: &Array3<f32>, weights: &Array2<f64>, theta: &[f64]) -> f64 {
+    let (mut sum, mut cosine) = (0.0, 0.0);
+    for ((i, j), &w) in weights.indexed_iter() {
+        let power = w * f64::from(values[[0, i, j]]);
+        sum += power;
+        cosine += power * theta[i].cos();
+    }
+    if sum > 0.0 { cosine / sum } else { 0.0 }
+}

@@ -1,0 +1,122 @@
+//! Phase tables as HDF5 files that are also netCDF-4: this page is the schema.
+//!
+//! # Format `gonio phase table`, version 1
+//! Every dimension has a coordinate variable (an HDF5 dimension scale), so h5py, xarray (engines
+//! `h5netcdf` and `netcdf4`) and ncdump show named coordinates with units.
+//!
+//! | variable | dimensions | units | content |
+//! |---|---|---|---|
+//! | `wavelength_nm` | itself | nm | wavelength in vacuum, f64 |
+//! | `theta` | itself | degree | scattering angle, 0 = forward, f64 |
+//! | `phi` | itself | degree | azimuth about the incident light, 0 = upper vertical half-plane, f64 |
+//! | `mueller_element` | itself | | "11", "12", … "44" (only in `mueller` tables) |
+//! | `order` | itself | | number of chords inside the particle, i32 (only with an energy budget) |
+//! | `phase_function` | wavelength_nm, theta, phi | sr-1 | quantity `phase_function`, f32 |
+//! | `mueller` | wavelength_nm, mueller_element, theta, phi | sr-1 | quantity `mueller`, same scaling |
+//! | `caustic_order` | wavelength_nm, theta, phi | 1 | rays that coalesce where the two-ray formula does not hold, else 0, u8; only where a method has it |
+//! | `solid_angle` | theta, phi | sr | what each sample stands for: Σ phase_function · solid_angle = 1, f32 |
+//! | `angle_from_antisolar_point` | theta | degree | 180 − theta |
+//! | `scattering_cross_section`, `extinction_cross_section` | wavelength_nm | m2 | f64 |
+//! | `asymmetry` | wavelength_nm | 1 | mean cosine of the scattering angle |
+//! | `refractive_index_real`, `refractive_index_imag` | wavelength_nm | 1 | n + ik, k ≥ 0 absorbs |
+//! | `sum_before_peak` | wavelength_nm | 1 | Σ phase_function · solid_angle before the forward peak was treated |
+//! | `peak_share` | wavelength_nm | 1 | share of the scattered power in the separated peak |
+//! | `error_estimate` | wavelength_nm | 1 | the method's own estimate of its relative error |
+//! | `energy_left_by_order` | wavelength_nm, order | 1 | power that left after that many chords, per power on the silhouette |
+//! | `energy_absorbed`, `energy_totally_reflected`, `energy_truncated`, `energy_residual` | wavelength_nm | 1 | the rest of the budget; NaN where a wavelength has none |
+//! | `radius_um` | | um | radius of the sphere of equal volume |
+//! | `sun_elevation`, `solar_zenith_angle` | | degree | sun above the horizon; from the zenith |
+//!
+//! Root attributes: `Conventions`, `title`, `format`, `format_version`, `program`,
+//! `program_version`, `git_hash`, `date_created` (from `SOURCE_DATE_EPOCH` where that is set),
+//! `scene` (resolved, as TOML), `command_line`, `conventions` (in words), `license`, `quantity`,
+//! `method`, `shape`, `forward_peak` (`cell_average`, `point` or `separate`),
+//! `rotational_symmetry` (1: `phi` has one value that stands for all), `bit_round` (bits of the
+//! mantissa kept, where values were rounded) and, written last, `complete` = 1.
+//!
+//! **Sweeps** ([`SweepWriter`]) have the same variables with one more leading dimension per swept
+//! value (`radius_um`, `sun_elevation`, …, in this order before `wavelength_nm`), `present`
+//! (leading dimensions; 1 where a table is there, else its values are NaN) and the root attribute
+//! `format` = `gonio phase table sweep`.
+//!
+//! Chunks are (1, …, rows of θ, φ), at most a mebibyte, shuffled and deflated; no filter beyond
+//! these two. Objects carry no time stamps: equal input gives equal bytes. A file appears under its
+//! name only when it is whole.
+
+mod body;
+mod chunk;
+mod literal;
+mod raw;
+mod raw_read;
+mod reader;
+mod record;
+mod schema;
+mod space;
+mod writer;
+
+pub use crate::pending_file::remove_all_pending as remove_temporaries;
+pub use reader::{TableReader, read};
+pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
+pub use space::{available_bytes, estimate_bytes};
+pub use writer::{TableWriter, WriteOptions, write};
+
+use crate::phase_table::InvalidTable;
+use std::path::PathBuf;
+
+/// What went wrong with a table or its file: which one, what, and what would do.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    #[error("{}: the file exists; choose another name or ask to overwrite it (--overwrite)", path.display())]
+    Exists { path: PathBuf },
+    #[error("{}: the table needs up to {} but the disk has {} free; take fewer angles or wavelengths",
+        path.display(), human_bytes(*needed), human_bytes(*available))]
+    NoSpace { path: PathBuf, needed: u64, available: u64 },
+    #[error("{}: {source}", path.display())]
+    Io { path: PathBuf, source: std::io::Error },
+    #[error("{}: cannot be written: {message}", path.display())]
+    Write { path: PathBuf, message: String },
+    #[error("{}: not a phase table: {message}", path.display())]
+    Foreign { path: PathBuf, message: String },
+    #[error("{}: damaged: {message}", path.display())]
+    Damaged { path: PathBuf, message: String },
+    #[error("{field} = {value}: {accepted}")]
+    Invalid { field: String, value: String, accepted: String },
+    #[error(transparent)]
+    Table(#[from] InvalidTable),
+}
+
+impl TableError {
+    /// True where the caller's input is wrong, rather than the disk or the computation.
+    pub fn is_wrong_input(&self) -> bool {
+        matches!(
+            self,
+            TableError::Exists { .. }
+                | TableError::NoSpace { .. }
+                | TableError::Foreign { .. }
+                | TableError::Invalid { .. }
+        )
+    }
+}
+
+/// A number of bytes for people: `3.4 GB`.
+pub fn human_bytes(bytes: u64) -> String {
+    const UNITS: [&str; 7] = ["bytes", "kB", "MB", "GB", "TB", "PB", "EB"];
+    let mut value = bytes as f64;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        value /= 1000.0;
+        unit += 1;
+    }
+    if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
+}
+
+/// What the HDF5 library says, with the system's reason (`No space left on device`) where it knows.
+fn library_message(error: &::hdf5::Error) -> String {
+    match error.stack() {
+        Some(stack) => match stack.detail() {
+            Some(detail) if !detail.is_empty() => format!("{} ({detail})", stack.description()),
+            _ => stack.description().to_string(),
+        },
+        None => error.to_string(),
+    }
+}

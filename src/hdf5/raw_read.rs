@@ -1,0 +1,339 @@
+//! Reading through the HDF5 C library, with every claim of the file checked before it is believed.
+
+use super::TableError;
+use hdf5::globals::{H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT, H5T_NATIVE_UINT8};
+use hdf5::sync::sync;
+use hdf5_sys::h5::herr_t;
+use hdf5_sys::h5i::hid_t;
+use hdf5_sys::{h5a, h5d, h5f, h5p, h5s, h5t};
+use std::ffi::{CString, c_char, c_int, c_void};
+use std::path::{Path, PathBuf};
+use std::ptr;
+
+/// Longest text attribute or string accepted, bytes.
+const LONGEST_TEXT: usize = 64 << 20;
+/// Deflate shortens nothing by more than this factor (zlib's technical notes).
+const MOST_DEFLATED: u64 = 1032;
+
+#[derive(Debug)]
+struct Id(hid_t, unsafe extern "C" fn(hid_t) -> herr_t);
+
+impl Drop for Id {
+    fn drop(&mut self) {
+        // SAFETY: the identifier is valid until here and closed once.
+        sync(|| unsafe { (self.1)(self.0) });
+    }
+}
+
+/// A file open for reading.
+#[derive(Debug)]
+pub(super) struct OpenFile {
+    id: Id,
+    pub path: PathBuf,
+    /// Length in bytes.
+    length: u64,
+}
+
+/// A dataset of an open file; `shape` is what the file says.
+#[derive(Debug)]
+pub(super) struct OpenDataset {
+    id: Id,
+    path: PathBuf,
+    name: String,
+    pub shape: Vec<u64>,
+    most_bytes: u64,
+}
+
+/// Types that values are read as.
+pub(super) trait Value: Copy + Default {
+    fn kind() -> hid_t;
+}
+impl Value for f32 {
+    fn kind() -> hid_t {
+        *H5T_NATIVE_FLOAT
+    }
+}
+impl Value for f64 {
+    fn kind() -> hid_t {
+        *H5T_NATIVE_DOUBLE
+    }
+}
+impl Value for u8 {
+    fn kind() -> hid_t {
+        *H5T_NATIVE_UINT8
+    }
+}
+
+impl OpenFile {
+    /// Open `path`; a file that is no HDF5 is told from one that is missing or damaged.
+    pub fn open(path: &Path) -> Result<OpenFile, TableError> {
+        let io = |source| TableError::Io { path: path.to_path_buf(), source };
+        let file = std::fs::File::open(path).map_err(io)?;
+        let data = file.metadata().map_err(io)?;
+        if data.is_dir() {
+            return Err(foreign(path, "it is a folder"));
+        }
+        check_signature(path, file)?;
+        let name = path.to_str().and_then(|text| CString::new(text).ok());
+        let name = name.ok_or_else(|| foreign(path, "its name is not valid UTF-8"))?;
+        let id = sync(|| unsafe {
+            // SAFETY: a C string and a default property list.
+            let id = h5f::H5Fopen(name.as_ptr(), h5f::H5F_ACC_RDONLY, h5p::H5P_DEFAULT);
+            owned(path, id, h5f::H5Fclose)
+        })?;
+        Ok(OpenFile { id, path: path.to_path_buf(), length: data.len() })
+    }
+
+    /// A text attribute of the file; `None` where there is none.
+    pub fn text(&self, name: &str) -> Result<Option<String>, TableError> {
+        text_attribute(&self.path, self.id.0, name)
+    }
+
+    /// A numeric attribute of the file; `None` where there is none.
+    pub fn number(&self, name: &str) -> Result<Option<f64>, TableError> {
+        let path = &self.path;
+        let Some(attribute) = attribute(path, self.id.0, name)? else { return Ok(None) };
+        sync(|| unsafe {
+            // SAFETY: identifiers are checked; the attribute has one value, checked.
+            let space = owned(path, h5a::H5Aget_space(attribute.0), h5s::H5Sclose)?;
+            if h5s::H5Sget_simple_extent_npoints(space.0) != 1 {
+                return Err(damaged(path, &format!("attribute {name} is not one number")));
+            }
+            let mut value = 0f64;
+            let status = h5a::H5Aread(attribute.0, f64::kind(), (&raw mut value).cast::<c_void>());
+            done(path, status)?;
+            Ok(Some(value))
+        })
+    }
+
+    /// Open a dataset; `None` where there is none.
+    pub fn dataset(&self, name: &str) -> Result<Option<OpenDataset>, TableError> {
+        let path = &self.path;
+        let c_name = CString::new(name).map_err(|_| damaged(path, "a name with a zero byte"))?;
+        sync(|| unsafe {
+            // SAFETY: C strings, checked identifiers, a buffer as long as the rank.
+            let exists = hdf5_sys::h5l::H5Lexists(self.id.0, c_name.as_ptr(), h5p::H5P_DEFAULT);
+            if exists < 0 {
+                return Err(failure(path));
+            }
+            if exists == 0 {
+                return Ok(None);
+            }
+            let id = h5d::H5Dopen2(self.id.0, c_name.as_ptr(), h5p::H5P_DEFAULT);
+            let id = owned(path, id, h5d::H5Dclose)?;
+            let shape = shape(path, &id)?;
+            let most_bytes = self.length.saturating_mul(MOST_DEFLATED).saturating_add(1 << 20);
+            Ok(Some(OpenDataset { id, path: path.clone(), name: name.into(), shape, most_bytes }))
+        })
+    }
+
+    /// Open a dataset that must be there.
+    pub fn required(&self, name: &str) -> Result<OpenDataset, TableError> {
+        let missing = || damaged(&self.path, &format!("variable {name} is missing"));
+        self.dataset(name)?.ok_or_else(missing)
+    }
+}
+
+impl OpenDataset {
+    /// A text attribute of the dataset.
+    pub fn text(&self, name: &str) -> Result<Option<String>, TableError> {
+        text_attribute(&self.path, self.id.0, name)
+    }
+
+    /// Read all values.
+    pub fn read<T: Value>(&self) -> Result<Vec<T>, TableError> {
+        let start = vec![0; self.shape.len()];
+        self.read_block(&start, &self.shape)
+    }
+
+    /// Read the block of `count` values per dimension that begins at `start`.
+    pub fn read_block<T: Value>(&self, start: &[u64], count: &[u64]) -> Result<Vec<T>, TableError> {
+        let fits = start.len() == self.shape.len()
+            && count.len() == self.shape.len()
+            && start
+                .iter()
+                .zip(count)
+                .zip(&self.shape)
+                .all(|((s, c), n)| s.checked_add(*c).is_some_and(|end| end <= *n));
+        if !fits {
+            return Err(damaged(&self.path, &format!("{} has shape {:?}", self.name, self.shape)));
+        }
+        let mut values = self.buffer::<T>(count)?;
+        if values.is_empty() {
+            return Ok(values);
+        }
+        sync(|| unsafe {
+            // SAFETY: the selection holds exactly `values.len()` values, lies inside the dataset.
+            let (file_space, memory_space) = if self.shape.is_empty() {
+                (None, None)
+            } else {
+                let file = owned(&self.path, h5d::H5Dget_space(self.id.0), h5s::H5Sclose)?;
+                let none = ptr::null();
+                let select = h5s::H5S_seloper_t::H5S_SELECT_SET;
+                let (start, size) = (start.as_ptr(), count.as_ptr());
+                let status = h5s::H5Sselect_hyperslab(file.0, select, start, none, size, none);
+                done(&self.path, status)?;
+                let memory = h5s::H5Screate_simple(count.len() as c_int, size, none);
+                (Some(file), Some(owned(&self.path, memory, h5s::H5Sclose)?))
+            };
+            let space = |id: &Option<Id>| id.as_ref().map_or(h5s::H5S_ALL, |id| id.0);
+            let (memory, file) = (space(&memory_space), space(&file_space));
+            let buffer = values.as_mut_ptr().cast::<c_void>();
+            let status = h5d::H5Dread(self.id.0, T::kind(), memory, file, h5p::H5P_DEFAULT, buffer);
+            done(&self.path, status)
+        })?;
+        Ok(values)
+    }
+
+    /// Read one-dimensional strings of fixed length.
+    pub fn read_texts(&self) -> Result<Vec<String>, TableError> {
+        let path = &self.path;
+        let bad = || damaged(path, &format!("{} is not a list of strings", self.name));
+        let count = self.shape.iter().product::<u64>();
+        sync(|| unsafe {
+            // SAFETY: the buffer has the size of the dataset's own type times its count.
+            let kind = owned(path, h5d::H5Dget_type(self.id.0), h5t::H5Tclose)?;
+            let size = fixed_text_size(&kind).ok_or_else(bad)?;
+            let bytes = count.checked_mul(size as u64).filter(|&b| b <= self.most_bytes);
+            let mut buffer = vec![0u8; bytes.ok_or_else(bad)? as usize];
+            let all = h5s::H5S_ALL;
+            let data = buffer.as_mut_ptr().cast::<c_void>();
+            done(path, h5d::H5Dread(self.id.0, kind.0, all, all, h5p::H5P_DEFAULT, data))?;
+            Ok(buffer.chunks(size).map(trimmed).collect())
+        })
+    }
+
+    /// Zeros for `count` values, refused where the file cannot hold as many.
+    fn buffer<T: Value>(&self, count: &[u64]) -> Result<Vec<T>, TableError> {
+        let total = count.iter().try_fold(1u64, |product, &n| product.checked_mul(n));
+        let bytes = total.and_then(|total| total.checked_mul(size_of::<T>() as u64));
+        let too_large = || {
+            let message = format!("{} claims {count:?} values, more than fit the file", self.name);
+            damaged(&self.path, &message)
+        };
+        let total = match (total, bytes) {
+            (Some(total), Some(bytes)) if bytes <= self.most_bytes => total as usize,
+            _ => return Err(too_large()),
+        };
+        let mut values = Vec::new();
+        values.try_reserve_exact(total).map_err(|_| too_large())?;
+        values.resize(total, T::default());
+        Ok(values)
+    }
+}
+
+/// SAFETY: the lock is held, `id` is a dataset.
+unsafe fn shape(path: &Path, id: &Id) -> Result<Vec<u64>, TableError> {
+    unsafe {
+        let space = owned(path, h5d::H5Dget_space(id.0), h5s::H5Sclose)?;
+        let rank = h5s::H5Sget_simple_extent_ndims(space.0);
+        if rank < 0 {
+            return Err(failure(path));
+        }
+        let mut shape = vec![0; rank as usize];
+        if h5s::H5Sget_simple_extent_dims(space.0, shape.as_mut_ptr(), ptr::null_mut()) < 0 {
+            return Err(failure(path));
+        }
+        Ok(shape)
+    }
+}
+
+fn attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<Id>, TableError> {
+    let c_name = CString::new(name).map_err(|_| damaged(path, "a name with a zero byte"))?;
+    sync(|| unsafe {
+        // SAFETY: C string, open object.
+        match h5a::H5Aexists(object, c_name.as_ptr()) {
+            0 => Ok(None),
+            exists if exists < 0 => Err(failure(path)),
+            _ => {
+                let id = h5a::H5Aopen(object, c_name.as_ptr(), h5p::H5P_DEFAULT);
+                owned(path, id, h5a::H5Aclose).map(Some)
+            }
+        }
+    })
+}
+
+/// Text of fixed or variable length.
+fn text_attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<String>, TableError> {
+    let Some(attribute) = attribute(path, object, name)? else { return Ok(None) };
+    let bad = || damaged(path, &format!("attribute {name} is not one text"));
+    sync(|| unsafe {
+        // SAFETY: the buffer has the size of the attribute's own type; the count is one, checked;
+        // strings of variable length are copied and then given back to the library.
+        let kind = owned(path, h5a::H5Aget_type(attribute.0), h5t::H5Tclose)?;
+        let space = owned(path, h5a::H5Aget_space(attribute.0), h5s::H5Sclose)?;
+        if h5s::H5Sget_simple_extent_npoints(space.0) != 1 {
+            return Err(bad());
+        }
+        if h5t::H5Tis_variable_str(kind.0) > 0 {
+            let mut text: *mut c_char = ptr::null_mut();
+            done(path, h5a::H5Aread(attribute.0, kind.0, (&raw mut text).cast::<c_void>()))?;
+            if text.is_null() {
+                return Err(bad());
+            }
+            let copy = std::ffi::CStr::from_ptr(text).to_string_lossy().into_owned();
+            hdf5_sys::h5::H5free_memory(text.cast::<c_void>());
+            return Ok(Some(copy));
+        }
+        let size = fixed_text_size(&kind).ok_or_else(bad)?;
+        let mut buffer = vec![0u8; size];
+        done(path, h5a::H5Aread(attribute.0, kind.0, buffer.as_mut_ptr().cast::<c_void>()))?;
+        Ok(Some(trimmed(&buffer)))
+    })
+}
+
+/// Bytes per string of a type of fixed-length strings. SAFETY: the lock is held.
+unsafe fn fixed_text_size(kind: &Id) -> Option<usize> {
+    unsafe {
+        let is_text = h5t::H5Tget_class(kind.0) == h5t::H5T_class_t::H5T_STRING
+            && h5t::H5Tis_variable_str(kind.0) == 0;
+        let size = h5t::H5Tget_size(kind.0);
+        (is_text && (1..=LONGEST_TEXT).contains(&size)).then_some(size)
+    }
+}
+
+fn trimmed(bytes: &[u8]) -> String {
+    let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
+    String::from_utf8_lossy(&bytes[..end]).into_owned()
+}
+
+/// The eight bytes that every HDF5 file begins with.
+fn check_signature(path: &Path, mut file: std::fs::File) -> Result<(), TableError> {
+    use std::io::Read;
+    let mut signature = [0u8; 8];
+    match file.read_exact(&mut signature) {
+        Ok(()) if &signature == b"\x89HDF\r\n\x1a\n" => Ok(()),
+        Ok(()) => Err(foreign(path, "it is not an HDF5 file")),
+        Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            Err(foreign(path, "it is too short for an HDF5 file"))
+        }
+        Err(source) => Err(TableError::Io { path: path.to_path_buf(), source }),
+    }
+}
+
+fn owned(
+    path: &Path,
+    id: hid_t,
+    close: unsafe extern "C" fn(hid_t) -> herr_t,
+) -> Result<Id, TableError> {
+    if id < 0 { Err(failure(path)) } else { Ok(Id(id, close)) }
+}
+
+fn done(path: &Path, status: herr_t) -> Result<(), TableError> {
+    if status < 0 { Err(failure(path)) } else { Ok(()) }
+}
+
+fn failure(path: &Path) -> TableError {
+    match hdf5::Error::query() {
+        Ok(error) => damaged(path, &super::library_message(&error)),
+        Err(_) => damaged(path, "the HDF5 library gives no reason"),
+    }
+}
+
+pub(super) fn damaged(path: &Path, message: &str) -> TableError {
+    TableError::Damaged { path: path.to_path_buf(), message: message.into() }
+}
+
+pub(super) fn foreign(path: &Path, message: &str) -> TableError {
+    TableError::Foreign { path: path.to_path_buf(), message: message.into() }
+}

@@ -1,0 +1,296 @@
+//! Reading a table, whole or wavelength by wavelength.
+
+use super::TableError;
+use super::raw_read::{OpenFile, damaged, foreign};
+use super::record::{ENERGY, PLAIN, Record};
+use super::schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name};
+use super::writer::invalid;
+use crate::phase_table::{
+    Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+};
+use ndarray::{Array2, Array3};
+use num_complex::Complex64;
+use std::path::Path;
+
+/// Read a whole table into memory.
+///
+/// # Errors
+/// When the file is missing, foreign, incomplete or damaged.
+pub fn read(path: &Path) -> Result<PhaseTable, TableError> {
+    let reader = TableReader::open(path)?;
+    let slabs = (0..reader.header().axes.wavelength.len()).map(|index| reader.slab(index));
+    let slabs = slabs.collect::<Result<_, _>>()?;
+    Ok(PhaseTable { header: reader.header, slabs })
+}
+
+/// A table on disk, read slab by slab.
+#[derive(Debug)]
+pub struct TableReader {
+    file: OpenFile,
+    header: TableHeader,
+    records: Vec<Record>,
+    has_caustic: bool,
+}
+
+impl TableReader {
+    /// Open a table: header and the few numbers per wavelength are read, no values yet.
+    ///
+    /// # Errors
+    /// When the file is missing, foreign, incomplete or damaged.
+    pub fn open(path: &Path) -> Result<TableReader, TableError> {
+        let file = OpenFile::open(path)?;
+        check_format(&file)?;
+        let header = read_header(&file)?;
+        header.validate().map_err(|error| damaged(path, &error.to_string()))?;
+        let records = read_records(&file, &[], header.axes.wavelength.len())?;
+        let has_caustic = check_shapes(&file, &header)?;
+        Ok(TableReader { file, header, records, has_caustic })
+    }
+
+    pub fn header(&self) -> &TableHeader {
+        &self.header
+    }
+
+    /// A text attribute of the file, such as `git_hash` or `date_created`.
+    ///
+    /// # Errors
+    /// When the attribute is there but damaged.
+    pub fn attribute(&self, name: &str) -> Result<Option<String>, TableError> {
+        self.file.text(name)
+    }
+
+    /// Bits of the mantissa that were kept, where values were rounded.
+    ///
+    /// # Errors
+    /// When the attribute is there but damaged.
+    pub fn bit_round(&self) -> Result<Option<u8>, TableError> {
+        Ok(self.file.number("bit_round")?.map(|bits| bits as u8))
+    }
+
+    /// Read one wavelength.
+    ///
+    /// # Errors
+    /// When there is no such wavelength or its values are damaged.
+    pub fn slab(&self, index: usize) -> Result<Slab, TableError> {
+        let axes = &self.header.axes;
+        let Some(record) = self.records.get(index) else {
+            let accepted = format!("the table has {} wavelengths", axes.wavelength.len());
+            return Err(invalid("slab", index, &accepted));
+        };
+        slab_at(&self.file, &self.header, record, &[], index, self.has_caustic)
+    }
+}
+
+/// Read the slab at a place of a table (no leading indices) or a sweep.
+pub(super) fn slab_at(
+    file: &OpenFile,
+    header: &TableHeader,
+    record: &Record,
+    leading: &[u64],
+    index: usize,
+    has_caustic: bool,
+) -> Result<Slab, TableError> {
+    let axes = &header.axes;
+    let (elements, theta, phi) = (header.quantity.elements(), axes.theta.len(), axes.phi.len());
+    let mut start = leading.to_vec();
+    start.push(index as u64);
+    let mut count = vec![1; start.len()];
+
+    let face = (start.clone(), count.clone());
+    if header.quantity == Quantity::Mueller {
+        start.push(0);
+        count.push(elements as u64);
+    }
+    start.extend([0, 0]);
+    count.extend([theta as u64, phi as u64]);
+    let values = file.required(values_name(header.quantity))?.read_block::<f32>(&start, &count)?;
+    let wrong_shape = |_| damaged(&file.path, "the values do not have the shape of the axes");
+    let values = Array3::from_shape_vec((elements, theta, phi), values).map_err(wrong_shape)?;
+
+    let caustic_order = if has_caustic {
+        let (mut start, mut count) = face;
+        start.extend([0, 0]);
+        count.extend([theta as u64, phi as u64]);
+        let mask = file.required("caustic_order")?.read_block::<u8>(&start, &count)?;
+        Some(Array2::from_shape_vec((theta, phi), mask).map_err(wrong_shape)?)
+    } else {
+        None
+    };
+    Ok(Slab {
+        wavelength: axes.wavelength[index],
+        index: record.index,
+        values,
+        caustic_order,
+        scattering_cross_section: record.scattering_cross_section,
+        extinction_cross_section: record.extinction_cross_section,
+        asymmetry: record.asymmetry,
+        energy: record.energy.clone(),
+        sum_before_peak: record.sum_before_peak,
+        peak_share: record.peak_share,
+        error_estimate: record.error_estimate,
+    })
+}
+
+fn check_format(file: &OpenFile) -> Result<(), TableError> {
+    let path = &file.path;
+    match file.text("format")?.as_deref() {
+        Some(FORMAT) => {}
+        Some(SWEEP_FORMAT) => {
+            return Err(foreign(path, "it is a sweep of many tables, not one table"));
+        }
+        Some(other) => return Err(foreign(path, &format!("its format is {other:?}"))),
+        None => return Err(foreign(path, &format!("it has no attribute format = {FORMAT:?}"))),
+    }
+    check_version(file)
+}
+
+/// Version known, and written to the end.
+pub(super) fn check_version(file: &OpenFile) -> Result<(), TableError> {
+    let path = &file.path;
+    let version = file.number("format_version")?.unwrap_or(f64::NAN);
+    if version != f64::from(FORMAT_VERSION) {
+        let message = format!("its format version is {version}, known is {FORMAT_VERSION}");
+        return Err(foreign(path, &message));
+    }
+    if file.number("complete")? != Some(1.0) {
+        return Err(damaged(path, "it was not written to the end"));
+    }
+    Ok(())
+}
+
+/// All of a header; radius and sun are those of a single table, NaN where they are swept.
+pub(super) fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
+    let path = &file.path;
+    let text = |name: &str| -> Result<String, TableError> {
+        file.text(name)?.ok_or_else(|| damaged(path, &format!("attribute {name} is missing")))
+    };
+    let unknown =
+        |name: &str, value: &str| damaged(path, &format!("{name} = {value:?} is unknown"));
+
+    let quantity_text = text("quantity")?;
+    let quantity = [Quantity::PhaseFunction, Quantity::Mueller]
+        .into_iter()
+        .find(|quantity| values_name(*quantity) == quantity_text)
+        .ok_or_else(|| unknown("quantity", &quantity_text))?;
+    let peak_text = text("forward_peak")?;
+    let forward_peak = [ForwardPeak::CellAverage, ForwardPeak::Point, ForwardPeak::Separate]
+        .into_iter()
+        .find(|peak| forward_peak_name(*peak) == peak_text)
+        .ok_or_else(|| unknown("forward_peak", &peak_text))?;
+
+    let axes = Axes {
+        wavelength: read_line(file, "wavelength_nm")?.iter().map(|nm| nm * 1e-9).collect(),
+        theta: read_angles(file, "theta")?,
+        phi: read_angles(file, "phi")?,
+    };
+    Ok(TableHeader {
+        axes,
+        quantity,
+        forward_peak,
+        rotational_symmetry: file.number("rotational_symmetry")? == Some(1.0),
+        method: text("method")?,
+        shape: text("shape")?,
+        radius: read_scalar(file, "radius_um")? * 1e-6,
+        sun_elevation: read_scalar(file, "sun_elevation")?.to_radians(),
+        scene_toml: text("scene")?,
+        command_line: text("command_line")?,
+    })
+}
+
+/// A coordinate variable.
+pub(super) fn read_line(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
+    let data = file.required(name)?;
+    if data.shape.len() != 1 {
+        return Err(damaged(&file.path, &format!("{name} is not one-dimensional")));
+    }
+    data.read::<f64>()
+}
+
+/// Degrees to radians; 180° and 360° become π and 2π exactly.
+fn read_angles(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
+    use std::f64::consts::PI;
+    Ok(read_line(file, name)?.iter().map(|degrees| degrees / 180.0 * PI).collect())
+}
+
+fn read_scalar(file: &OpenFile, name: &str) -> Result<f64, TableError> {
+    let data = file.required(name)?;
+    if data.shape.is_empty() { Ok(data.read::<f64>()?[0]) } else { Ok(f64::NAN) }
+}
+
+/// True if there is a caustic mask; fails where a variable has not the shape of the axes.
+fn check_shapes(file: &OpenFile, header: &TableHeader) -> Result<bool, TableError> {
+    let axes = &header.axes;
+    let lengths = [axes.wavelength.len(), axes.theta.len(), axes.phi.len()];
+    let [wavelength, theta, phi] = lengths.map(|length| length as u64);
+    let name = values_name(header.quantity);
+    let expected = match header.quantity {
+        Quantity::PhaseFunction => vec![wavelength, theta, phi],
+        Quantity::Mueller => vec![wavelength, 16, theta, phi],
+    };
+    let found = file.required(name)?.shape;
+    if found != expected {
+        let message = format!("{name} has shape {found:?}, the axes say {expected:?}");
+        return Err(damaged(&file.path, &message));
+    }
+    Ok(file.dataset("caustic_order")?.is_some())
+}
+
+/// The records of one table: `leading` is its place in a sweep.
+pub(super) fn read_records(
+    file: &OpenFile,
+    leading: &[u64],
+    wavelengths: usize,
+) -> Result<Vec<Record>, TableError> {
+    let line = |name: &str, length: u64, more: Option<u64>| -> Result<Vec<f64>, TableError> {
+        let (mut start, mut count) = (leading.to_vec(), vec![1; leading.len()]);
+        start.push(0);
+        count.push(length);
+        start.extend(more.map(|_| 0));
+        count.extend(more);
+        file.required(name)?.read_block::<f64>(&start, &count)
+    };
+    let length = wavelengths as u64;
+    let plain = PLAIN.map(|(name, ..)| line(name, length, None));
+    let [scattering, extinction, asymmetry, real, imag, sum, share, error] = plain;
+    let (scattering, extinction, asymmetry) = (scattering?, extinction?, asymmetry?);
+    let (real, imag, sum, share, error) = (real?, imag?, sum?, share?, error?);
+
+    let energy = if file.dataset("energy_absorbed")?.is_some() {
+        let [absorbed, reflected, truncated, residual] =
+            ENERGY.map(|(name, ..)| line(name, length, None));
+        let (absorbed, reflected) = (absorbed?, reflected?);
+        let (truncated, residual) = (truncated?, residual?);
+        let orders = match file.dataset("order")? {
+            Some(order) => order.shape.first().copied().unwrap_or(0),
+            None => 0,
+        };
+        let left = match orders {
+            0 => Vec::new(),
+            orders => line("energy_left_by_order", length, Some(orders))?,
+        };
+        let orders = orders as usize;
+        let budget = |i: usize| {
+            (!absorbed[i].is_nan()).then(|| EnergyBudget {
+                left_by_order: left[i * orders..(i + 1) * orders].to_vec(),
+                absorbed: absorbed[i],
+                totally_reflected: reflected[i],
+                truncated: truncated[i],
+                residual: residual[i],
+            })
+        };
+        (0..wavelengths).map(budget).collect()
+    } else {
+        vec![None; wavelengths]
+    };
+    let record = |(i, energy)| Record {
+        index: Complex64::new(real[i], imag[i]),
+        scattering_cross_section: scattering[i],
+        extinction_cross_section: extinction[i],
+        asymmetry: asymmetry[i],
+        sum_before_peak: sum[i],
+        peak_share: share[i],
+        error_estimate: error[i],
+        energy,
+    };
+    Ok(energy.into_iter().enumerate().map(record).collect())
+}

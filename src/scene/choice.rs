@@ -1,0 +1,104 @@
+//! Words that stand for one of a closed set of values, in scene files and flags alike.
+
+use super::error::nearest;
+use super::{Diffraction, Method};
+use crate::phase_table::{ForwardPeak, Quantity};
+use crate::shape::RaindropModel;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A closed set of values, each with its word.
+pub trait Named: Copy + PartialEq + 'static {
+    /// All words and what they stand for.
+    const NAMES: &'static [(&'static str, Self)];
+
+    /// The word for this value.
+    fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(name, _)| name)
+    }
+
+    /// The value for a word.
+    ///
+    /// # Errors
+    /// A message with all accepted words, and the nearest one where there is one.
+    fn from_name(word: &str) -> Result<Self, String> {
+        if let Some((_, value)) = Self::NAMES.iter().find(|(name, _)| *name == word) {
+            return Ok(*value);
+        }
+        let names: Vec<&str> = Self::NAMES.iter().map(|(name, _)| *name).collect();
+        let hint = nearest(word, names.iter().copied())
+            .map(|name| format!(" (did you mean \"{name}\"?)"))
+            .unwrap_or_default();
+        Err(format!("\"{word}\" is not known{hint}; accepted: {}", names.join(", ")))
+    }
+}
+
+/// A [`Named`] value in a scene file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice<T>(pub T);
+
+impl<T: Named> Serialize for Choice<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0.name())
+    }
+}
+
+impl<'de, T: Named> Deserialize<'de> for Choice<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        T::from_name(&word).map(Choice).map_err(D::Error::custom)
+    }
+}
+
+/// The kinds of particles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShapeName {
+    Sphere,
+    Spheroid,
+    Raindrop,
+}
+
+impl Named for ShapeName {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("sphere", ShapeName::Sphere),
+        ("spheroid", ShapeName::Spheroid),
+        ("raindrop", ShapeName::Raindrop),
+    ];
+}
+
+impl Named for RaindropModel {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("beard-chuang-1987", RaindropModel::BeardChuang1987),
+        ("chuang-beard-1990", RaindropModel::ChuangBeard1990),
+    ];
+}
+
+impl Named for Quantity {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("phase_function", Quantity::PhaseFunction), ("mueller", Quantity::Mueller)];
+}
+
+impl Named for ForwardPeak {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("cell_average", ForwardPeak::CellAverage),
+        ("point", ForwardPeak::Point),
+        ("separate", ForwardPeak::Separate),
+    ];
+}
+
+impl Named for Method {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("auto", Method::Auto),
+        ("rays", Method::Rays),
+        ("mie", Method::Mie),
+        ("debye", Method::Debye),
+    ];
+}
+
+impl Named for Diffraction {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("none", Diffraction::None),
+        ("gaussian", Diffraction::Gaussian),
+        ("airy", Diffraction::Airy),
+    ];
+}

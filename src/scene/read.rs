@@ -1,0 +1,128 @@
+//! From the text of a scene file to `SceneFile`, remembering the lines.
+
+use super::error::{Place, SceneError, nearest};
+use super::file::{KEYS, SceneFile};
+use std::io::Read;
+use std::ops::Range;
+use std::path::Path;
+use toml::de::DeTable;
+
+/// Scene files are a few hundred bytes; a larger one was not meant to be one.
+const MAX_BYTES: u64 = 4 << 20;
+
+/// A scene file that could be read, with its text for finding lines.
+#[derive(Clone, Debug)]
+pub struct SceneText {
+    /// Name for messages: the path as the user gave it.
+    pub name: String,
+    text: String,
+    /// The keys.
+    pub file: SceneFile,
+}
+
+impl SceneText {
+    /// Read a scene file.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no TOML, or has unknown keys or values of the wrong kind.
+    pub fn load(path: &Path) -> Result<SceneText, SceneError> {
+        let unreadable = |source| SceneError::Read { path: path.to_path_buf(), source };
+        let mut text = String::new();
+        let source = std::fs::File::open(path).map_err(unreadable)?;
+        source.take(MAX_BYTES + 1).read_to_string(&mut text).map_err(unreadable)?;
+        if text.len() as u64 > MAX_BYTES {
+            let message = format!("larger than {} MiB, so not a scene file", MAX_BYTES >> 20);
+            return Err(unreadable(std::io::Error::other(message)));
+        }
+        SceneText::parse(&path.display().to_string(), text)
+    }
+
+    /// Parse the text of a scene; `name` stands for it in messages.
+    ///
+    /// # Errors
+    /// As for [`SceneText::load`].
+    pub fn parse(name: &str, text: String) -> Result<SceneText, SceneError> {
+        let syntax = |error: toml::de::Error| {
+            let span = error.span();
+            let key = span.clone().and_then(|span| key_at(&text, span.start)).unwrap_or_default();
+            let line = span.map(|span| line_at(&text, span.start));
+            let message = error.message().trim().replace('\n', ", ");
+            let place = Box::new(Place::File { file: name.into(), line, key });
+            SceneError::Syntax { place, message }
+        };
+        let document = DeTable::parse(&text).map_err(syntax)?;
+        check_keys(name, &text, document.get_ref())?;
+        let file = toml::from_str(&text).map_err(syntax)?;
+        Ok(SceneText { name: name.into(), text, file })
+    }
+
+    /// The place of a dotted key in this file.
+    pub fn place_of(&self, key: &str) -> Place {
+        let line = self.span_of(key).map(|span| line_at(&self.text, span.start));
+        Place::File { file: self.name.clone(), line, key: key.into() }
+    }
+
+    fn span_of(&self, key: &str) -> Option<Range<usize>> {
+        let document = DeTable::parse(&self.text).ok()?;
+        let (section, name) = key.split_once('.')?;
+        let keys = get(document.get_ref(), section)?.as_table()?;
+        keys.iter().find(|(key, _)| key.get_ref() == name).map(|(key, _)| key.span())
+    }
+}
+
+fn get<'a, 'i>(table: &'a DeTable<'i>, name: &str) -> Option<&'a toml::de::DeValue<'i>> {
+    table.iter().find(|(key, _)| key.get_ref() == name).map(|(_, value)| value.get_ref())
+}
+
+/// Refuse the first unknown section or key, with the nearest known one.
+fn check_keys(name: &str, text: &str, document: &DeTable) -> Result<(), SceneError> {
+    let unknown = |span: Range<usize>, key: &str, known: Vec<&str>| {
+        let line = Some(line_at(text, span.start));
+        Err(SceneError::UnknownKey {
+            place: Box::new(Place::File { file: name.into(), line, key: String::new() }),
+            key: key.into(),
+            suggestion: nearest(key, known.iter().copied()).map(String::from),
+            known: known.join(", "),
+        })
+    };
+    for (section, value) in document {
+        let Some((_, known)) = KEYS.iter().find(|(name, _)| name == section.get_ref()) else {
+            // A key that was written above its section's head is the likelier slip.
+            if let Some((home, _)) =
+                KEYS.iter().find(|(_, keys)| keys.contains(&&**section.get_ref()))
+            {
+                let mut error = unknown(section.span(), section.get_ref(), vec![]);
+                if let Err(SceneError::UnknownKey { suggestion, known, .. }) = &mut error {
+                    *suggestion = Some(format!("{home}.{}", section.get_ref()));
+                    *known = KEYS.map(|(name, _)| format!("[{name}]")).join(", ");
+                }
+                return error;
+            }
+            return unknown(section.span(), section.get_ref(), KEYS.map(|(name, _)| name).into());
+        };
+        for (key, _) in value.get_ref().as_table().into_iter().flatten() {
+            if !known.contains(&&**key.get_ref()) {
+                return unknown(key.span(), key.get_ref(), known.to_vec());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The dotted key whose value covers a byte of the text.
+fn key_at(text: &str, byte: usize) -> Option<String> {
+    let document = DeTable::parse(text).ok()?;
+    for (section, value) in document.get_ref() {
+        for (key, value) in value.get_ref().as_table().into_iter().flatten() {
+            if value.span().contains(&byte) || key.span().contains(&byte) {
+                return Some(format!("{}.{}", section.get_ref(), key.get_ref()));
+            }
+        }
+    }
+    None
+}
+
+/// Line number, from 1, of a byte of the text.
+fn line_at(text: &str, byte: usize) -> usize {
+    text.bytes().take(byte).filter(|byte| *byte == b'\n').count() + 1
+}

@@ -1,0 +1,329 @@
+//! From keys as written to a `Scene` that physics can rely on.
+
+use super::choice::{Choice, Named, ShapeName};
+use super::error::SceneError;
+use super::file::{ParticleKeys, SceneFile};
+use super::grid::Grid;
+use super::{Diffraction, Method, Orders, Particle, Scene};
+use crate::medium::{Medium, MediumSpec};
+use crate::phase_table::{ForwardPeak, Quantity};
+use crate::shape::RaindropModel;
+
+/// Axis ratios beyond these are needles and discs, for which neither rays nor drops are meant.
+const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+/// Radii of spheres and spheroids, millimetres: from a nanometre to a centimetre.
+const RADII_MM: std::ops::RangeInclusive<f64> = 1e-6..=10.0;
+/// Highest order that may be asked for by name.
+const MAX_ORDER: u32 = 100;
+/// Mantissa bits of an `f32` without the implied one.
+const MANTISSA_BITS: u8 = 23;
+
+impl SceneFile {
+    /// Check everything and convert to metres and radians.
+    ///
+    /// # Errors
+    /// The first key that is missing or has a value that is not accepted.
+    pub fn validate(&self) -> Result<Scene, SceneError> {
+        let resolved = self.with_defaults();
+        let (particle, light) = (&resolved.particle, &resolved.light);
+        let (table, model) = (&resolved.table, &resolved.model);
+        let wavelengths = wavelengths(light.wavelengths_nm.as_ref())?;
+        let scene = Scene {
+            particle: particle_of(particle)?,
+            medium: medium_of(particle, &wavelengths)?,
+            sun_elevation: sun_elevation(light.sun_elevation_deg)?,
+            wavelengths,
+            theta: theta(table.theta_deg.as_ref())?,
+            phi: azimuth(table.azimuth_deg.as_ref())?,
+            quantity: chosen(table.quantity, "table.quantity")?,
+            forward_peak: chosen(table.forward_peak, "table.forward_peak")?,
+            bit_round: bit_round(table.bit_round)?,
+            method: chosen(model.method, "model.method")?,
+            interference: model.interference.unwrap_or(true),
+            diffraction: chosen(model.diffraction, "model.diffraction")?,
+            orders: orders(model.orders.as_ref())?,
+            tolerance: tolerance(model.tolerance)?,
+            rays_across: rays_across(model.rays_across)?,
+            toml: resolved.to_toml(),
+        };
+        scene.check_method()?;
+        scene.check_size()?;
+        Ok(scene)
+    }
+
+    /// The scene as TOML.
+    pub fn to_toml(&self) -> String {
+        // Plain structs of numbers and words always have a TOML form.
+        toml::to_string(self).unwrap_or_default()
+    }
+
+    /// This scene with every key that may be left out filled in.
+    fn with_defaults(&self) -> SceneFile {
+        let mut full = self.clone();
+        let particle = &mut full.particle;
+        particle.medium.get_or_insert_with(MediumSpec::default);
+        if particle.shape == Some(Choice(ShapeName::Raindrop)) {
+            particle.model.get_or_insert(Choice(RaindropModel::BeardChuang1987));
+        }
+        let range = |from, to, count| Grid::Range { from, to, count };
+        full.light.sun_elevation_deg.get_or_insert(20.0);
+        full.light.wavelengths_nm.get_or_insert_with(|| range(380.0, 720.0, 33));
+        full.table.theta_deg.get_or_insert_with(|| range(0.0, 180.0, 1801));
+        full.table.azimuth_deg.get_or_insert_with(|| range(0.0, 360.0, 361));
+        full.table.quantity.get_or_insert(Choice(Quantity::PhaseFunction));
+        full.table.forward_peak.get_or_insert(Choice(ForwardPeak::default()));
+        full.model.method.get_or_insert(Choice(Method::Auto));
+        full.model.interference.get_or_insert(true);
+        full.model.diffraction.get_or_insert(Choice(Diffraction::Airy));
+        full.model.orders.get_or_insert(Orders::Auto);
+        full.model.tolerance.get_or_insert(0.01);
+        full
+    }
+}
+
+fn chosen<T: Named>(choice: Option<Choice<T>>, key: &str) -> Result<T, SceneError> {
+    choice.map(|choice| choice.0).ok_or_else(|| {
+        let names: Vec<&str> = T::NAMES.iter().map(|(name, _)| *name).collect();
+        SceneError::missing(key, format!("accepted: {}", names.join(", ")))
+    })
+}
+
+fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
+    let shape = chosen(keys.shape, "particle.shape")?;
+    if let (Some(ratio), true) = (keys.axis_ratio, shape != ShapeName::Spheroid) {
+        let accepted = format!("only a spheroid has an axis ratio; the shape is {}", shape.name());
+        return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
+    }
+    if let (Some(model), true) = (keys.model, shape != ShapeName::Raindrop) {
+        let accepted = format!("only a raindrop has a shape model; the shape is {}", shape.name());
+        return Err(SceneError::invalid("particle.model", model.0.name(), accepted));
+    }
+    match shape {
+        ShapeName::Sphere => Ok(Particle::Sphere { radius: radius(keys, plain_radius)? }),
+        ShapeName::Spheroid => Ok(Particle::Spheroid {
+            radius: radius(keys, plain_radius)?,
+            axis_ratio: axis_ratio(keys.axis_ratio)?,
+        }),
+        ShapeName::Raindrop => {
+            let model = chosen(keys.model, "particle.model")?;
+            let radius = radius(keys, |radius_mm| raindrop_radius(model, radius_mm))?;
+            Ok(Particle::Raindrop { radius, model })
+        }
+    }
+}
+
+/// The radius in metres from whichever size was given; `accept` judges it in millimetres.
+fn radius(
+    keys: &ParticleKeys,
+    accept: impl Fn(f64) -> Result<(), String>,
+) -> Result<f64, SceneError> {
+    let given: Vec<(&str, f64, f64)> = [
+        ("particle.radius_mm", keys.radius_mm, 1.0),
+        ("particle.radius_um", keys.radius_um, 1e-3),
+        ("particle.diameter_mm", keys.diameter_mm, 0.5),
+    ]
+    .into_iter()
+    .filter_map(|(key, value, unit)| value.map(|value| (key, value, unit)))
+    .collect();
+    match given[..] {
+        [(key, value, unit)] => {
+            let radius_mm = value * unit;
+            accept(radius_mm).map_err(|accepted| SceneError::invalid(key, value, accepted))?;
+            Ok(radius_mm * 1e-3)
+        }
+        [] => Err(SceneError::missing(
+            "particle.radius_mm",
+            "give the size of the sphere of equal volume as radius_mm, radius_um or diameter_mm",
+        )),
+        [_, (key, value, _), ..] => Err(SceneError::invalid(
+            key,
+            value,
+            "the size is given twice; keep one of radius_mm, radius_um, diameter_mm",
+        )),
+    }
+}
+
+fn plain_radius(radius_mm: f64) -> Result<(), String> {
+    if RADII_MM.contains(&radius_mm) {
+        return Ok(());
+    }
+    Err(format!("a radius must be {} to {} mm", RADII_MM.start(), RADII_MM.end()))
+}
+
+fn raindrop_radius(model: RaindropModel, radius_mm: f64) -> Result<(), String> {
+    let range_mm = |model: RaindropModel| {
+        let (from, to) = model.radius_range();
+        (from * 1e3, to * 1e3)
+    };
+    let (from, to) = range_mm(model);
+    if (from..=to).contains(&radius_mm) {
+        return Ok(());
+    }
+    let mut message =
+        format!("the raindrop model {} holds for radii of {from} to {to} mm", model.name());
+    for (name, wider) in RaindropModel::NAMES {
+        let (from, to) = range_mm(*wider);
+        if (from..=to).contains(&radius_mm) {
+            message += &format!("; model = \"{name}\" reaches {to} mm");
+        }
+    }
+    Err(message)
+}
+
+fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
+    const KEY: &str = "particle.axis_ratio";
+    let accepted = format!(
+        "vertical over horizontal diameter of the spheroid, {} to {}",
+        AXIS_RATIOS.start(),
+        AXIS_RATIOS.end()
+    );
+    match ratio {
+        None => Err(SceneError::missing(KEY, accepted)),
+        Some(ratio) if AXIS_RATIOS.contains(&ratio) => Ok(ratio),
+        Some(ratio) => Err(SceneError::invalid(KEY, ratio, accepted)),
+    }
+}
+
+fn medium_of(keys: &ParticleKeys, wavelengths: &[f64]) -> Result<Medium, SceneError> {
+    const KEY: &str = "particle.medium";
+    let mut spec = keys.medium.clone().unwrap_or_default();
+    if let (MediumSpec::Named(named), Some(celsius)) = (&mut spec, keys.temperature_c) {
+        named.temperature_c = Some(celsius);
+    }
+    let here = std::path::Path::new("");
+    let medium = spec.resolve(here).map_err(|source| SceneError::medium(KEY, source))?;
+    for wavelength in wavelengths {
+        let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
+        if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {
+            let accepted = "an index n + ik needs n > 0 and k ≥ 0";
+            return Err(SceneError::invalid(KEY, index, accepted));
+        }
+        if (index - 1.0).norm() < 1e-9 {
+            return Err(SceneError::invalid(KEY, index, "an index of 1 scatters no light"));
+        }
+    }
+    Ok(medium)
+}
+
+fn sun_elevation(degrees: Option<f64>) -> Result<f64, SceneError> {
+    let degrees = degrees.unwrap_or_default();
+    if (-90.0..=90.0).contains(&degrees) {
+        return Ok(degrees.to_radians());
+    }
+    let accepted = "the sun's elevation above the horizon is -90 to 90 degrees";
+    Err(SceneError::invalid("light.sun_elevation_deg", degrees, accepted))
+}
+
+/// The values of an axis, all inside `limits`; `ascending` where the order matters.
+fn axis(
+    key: &str,
+    grid: Option<&Grid>,
+    limits: std::ops::RangeInclusive<f64>,
+    accepted: &str,
+) -> Result<Vec<f64>, SceneError> {
+    let grid = grid.ok_or_else(|| SceneError::missing(key, accepted))?;
+    let refuse = |reason: String| SceneError::invalid(key, grid, format!("{reason}; {accepted}"));
+    let values = grid.values().map_err(refuse)?;
+    if let Some(value) = values.iter().find(|value| !limits.contains(value)) {
+        return Err(refuse(format!("{value} is not accepted")));
+    }
+    if let Some(pair) = values.windows(2).find(|pair| pair[0] >= pair[1]) {
+        return Err(refuse(format!("{} is followed by {}", pair[0], pair[1])));
+    }
+    Ok(values)
+}
+
+fn wavelengths(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
+    let accepted = "wavelengths in vacuum, 1 to 1e6 nm, ascending";
+    let values = axis("light.wavelengths_nm", grid, 1.0..=1e6, accepted)?;
+    Ok(values.into_iter().map(|nm| nm * 1e-9).collect())
+}
+
+fn theta(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
+    const KEY: &str = "table.theta_deg";
+    let accepted = "at least two scattering angles, 0 to 180 degrees, ascending";
+    let values = axis(KEY, grid, 0.0..=180.0, accepted)?;
+    if values.len() < 2 {
+        return Err(SceneError::invalid(KEY, Grid::List(values), accepted));
+    }
+    Ok(values.into_iter().map(f64::to_radians).collect())
+}
+
+fn azimuth(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
+    const KEY: &str = "table.azimuth_deg";
+    let accepted = "azimuths of -360 to 360 degrees, ascending, over at most 360 degrees";
+    let values = axis(KEY, grid, -360.0..=360.0, accepted)?;
+    let span = values.last().unwrap_or(&0.0) - values.first().unwrap_or(&0.0);
+    if span > 360.0 {
+        let reason = format!("it spans {span} degrees; {accepted}");
+        return Err(SceneError::invalid(KEY, Grid::List(values), reason));
+    }
+    Ok(values.into_iter().map(f64::to_radians).collect())
+}
+
+fn bit_round(bits: Option<u8>) -> Result<Option<u8>, SceneError> {
+    match bits {
+        Some(bits) if !(1..=MANTISSA_BITS).contains(&bits) => {
+            let accepted = format!("bits of the mantissa to keep, 1 to {MANTISSA_BITS}");
+            Err(SceneError::invalid("table.bit_round", bits, accepted))
+        }
+        bits => Ok(bits),
+    }
+}
+
+fn orders(orders: Option<&Orders>) -> Result<Orders, SceneError> {
+    const KEY: &str = "model.orders";
+    let Some(Orders::List(list)) = orders else { return Ok(Orders::Auto) };
+    let refuse = |reason: &str| Err(SceneError::invalid(KEY, format!("{list:?}"), reason));
+    if list.is_empty() {
+        return refuse("the list is empty; accepted: \"auto\" or at least one order");
+    }
+    if list.iter().any(|order| *order > MAX_ORDER) {
+        return refuse(&format!("an order is the number of chords inside, 0 to {MAX_ORDER}"));
+    }
+    let mut sorted = list.clone();
+    sorted.sort_unstable();
+    sorted.dedup();
+    if sorted.len() < list.len() {
+        return refuse("an order is named twice");
+    }
+    Ok(Orders::List(list.clone()))
+}
+
+fn tolerance(tolerance: Option<f64>) -> Result<f64, SceneError> {
+    let tolerance = tolerance.unwrap_or(0.01);
+    if (1e-8..=0.5).contains(&tolerance) {
+        return Ok(tolerance);
+    }
+    let accepted = "the relative error asked for, 1e-8 to 0.5";
+    Err(SceneError::invalid("model.tolerance", tolerance, accepted))
+}
+
+fn rays_across(rays: Option<u32>) -> Result<Option<usize>, SceneError> {
+    match rays {
+        Some(rays) if !(8..=20_000).contains(&rays) => Err(SceneError::invalid(
+            "model.rays_across",
+            rays,
+            "rays across the silhouette, 8 to 20000; leave it out to have them chosen",
+        )),
+        rays => Ok(rays.map(|rays| rays as usize)),
+    }
+}
+
+impl Scene {
+    /// The exact series know only spheres, and not every switch of the ray method.
+    fn check_method(&self) -> Result<(), SceneError> {
+        let series = matches!(self.method, Method::Mie | Method::Debye);
+        if series && !matches!(self.particle, Particle::Sphere { .. }) {
+            let accepted =
+                "the exact series are for spheres; other shapes take \"rays\" or \"auto\"";
+            return Err(SceneError::invalid("model.method", self.method.name(), accepted));
+        }
+        if let (Method::Mie, Orders::List(list)) = (self.method, &self.orders) {
+            let accepted =
+                "Lorenz–Mie has all orders at once; method = \"debye\" or \"rays\" takes a list";
+            return Err(SceneError::invalid("model.orders", format!("{list:?}"), accepted));
+        }
+        Ok(())
+    }
+}

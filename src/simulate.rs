@@ -1,0 +1,200 @@
+//! The main path on one page: plan, trace, collect, interfere, diffract, tabulate.
+//!
+//! Wavelength by wavelength: the wavefront is traced into sheets of rays, the sheets are spread over
+//! the far field, every azimuth of the table becomes a column of amplitudes, and the columns become
+//! a [`Slab`], which is handed on before the next wavelength is computed.
+
+use crate::farfield::FarField;
+use crate::farfield::patch;
+use crate::farfield::tabulate::{Tabulator, Values};
+use crate::medium::MediumError;
+use crate::optics::AmplitudeMatrix;
+use crate::phase_table::{Axes, EnergyBudget, Slab, TableHeader};
+use crate::plan::{Engine, Plan, PlanError, Symmetry};
+use crate::scene::{Particle, Scene};
+use crate::trace::{Tracer, Wavefront, energy_by_fate};
+use num_complex::Complex64;
+use std::f64::consts::TAU;
+
+/// What can go wrong on the main path.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulateError {
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Medium(#[from] MediumError),
+    #[error(transparent)]
+    Series(#[from] crate::series::SeriesError),
+    #[error(
+        "energy does not add up at {wavelength_nm} nm: {residual:e} of the light is unaccounted for"
+    )]
+    Energy { wavelength_nm: f64, residual: f64 },
+}
+
+/// Rays per side of the grid on which the energy budget is added up.
+const ENERGY_GRID: usize = 160;
+/// Largest share of light that the energy budget may lose to rounding.
+const ENERGY_TOLERANCE: f64 = 1e-6;
+
+/// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
+/// with its index while the next one is being computed.
+///
+/// # Errors
+/// The plan's, the medium's, or whatever `sink` returns; nothing is computed after an error.
+pub fn simulate<E: From<SimulateError>>(
+    scene: &Scene,
+    mut sink: impl FnMut(usize, Slab) -> Result<(), E>,
+) -> Result<(), E> {
+    let plan = Plan::new(scene).map_err(SimulateError::from)?;
+    std::thread::scope(|scope| {
+        let (sender, receiver) = std::sync::mpsc::sync_channel(1);
+        scope.spawn(move || {
+            for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
+                let slab = slab(scene, &plan, wavelength);
+                let failed = slab.is_err();
+                if sender.send((i, slab)).is_err() || failed {
+                    return;
+                }
+            }
+        });
+        receiver.into_iter().try_for_each(|(i, slab)| sink(i, slab?))
+    })
+}
+
+/// One wavelength of a table.
+///
+/// # Errors
+/// A wavelength outside the medium's data, or an energy budget that does not add up.
+pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
+    let index = scene.medium.index(wavelength)?;
+    if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
+        let (field, value) = ("method", "mie".to_string());
+        return Err(crate::series::SeriesError::Invalid { field, value, accepted: "rays" }.into());
+    }
+    let size_parameter = TAU * plan.radius / wavelength;
+    let budget = energy(plan, wavelength, index, size_parameter)?;
+    let far_field = far_field(scene, plan, index, size_parameter, &scene.phi);
+    let azimuths = plan.table_azimuths(&scene.phi);
+    let (computed, places) = plan.computed_azimuths(&azimuths);
+    let tabulator = Tabulator {
+        theta: &scene.theta,
+        size_parameter,
+        quantity: scene.quantity,
+        forward_peak: scene.forward_peak,
+        interference: scene.interference,
+        filter: (scene.diffraction == crate::scene::Diffraction::Gaussian)
+            .then(|| crate::farfield::gaussian_filter::standard_deviation(plan.radius)),
+        diffraction: plan.forward_diffraction.then(|| far_field.silhouette()),
+        scattered: 1.0 - budget.absorbed,
+        silhouette_area: far_field.silhouette().area(),
+    };
+    let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
+    let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
+        tabulator.tabulate(&far_field, &computed, &places, &axes);
+    let area = far_field.silhouette().area() * plan.radius * plan.radius;
+    let peak = if plan.forward_diffraction { area } else { 0.0 };
+    Ok(Slab {
+        wavelength,
+        index,
+        values,
+        caustic_order,
+        scattering_cross_section: area * (1.0 - budget.absorbed) + peak,
+        extinction_cross_section: area + peak,
+        asymmetry,
+        energy: Some(budget),
+        sum_before_peak,
+        peak_share,
+        error_estimate: scene.tolerance,
+    })
+}
+
+/// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre.
+pub fn scatter(
+    scene: &Scene,
+    plan: &Plan,
+    index: Complex64,
+    size_parameter: f64,
+    directions: &[(f64, f64)],
+) -> Vec<AmplitudeMatrix> {
+    let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
+    let far_field = far_field(scene, plan, index, size_parameter, &azimuths);
+    far_field.scatter(directions, plan.forward_diffraction)
+}
+
+/// The header of the table that a scene makes.
+///
+/// # Errors
+/// The plan's.
+pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, SimulateError> {
+    let plan = Plan::new(scene)?;
+    let rotational = plan.symmetry == Symmetry::Rotational;
+    Ok(TableHeader {
+        axes: Axes {
+            wavelength: scene.wavelengths.clone(),
+            theta: scene.theta.clone(),
+            phi: plan.table_azimuths(&scene.phi),
+        },
+        quantity: scene.quantity,
+        forward_peak: scene.forward_peak,
+        rotational_symmetry: rotational,
+        method: match plan.engine {
+            Engine::Meridians | Engine::Patches => "rays",
+            Engine::LorenzMie => "mie",
+            Engine::Debye => "debye",
+        }
+        .into(),
+        shape: match scene.particle {
+            Particle::Sphere { .. } => "sphere",
+            Particle::Spheroid { .. } => "spheroid",
+            Particle::Raindrop { .. } => "raindrop",
+        }
+        .into(),
+        radius: plan.radius,
+        sun_elevation: scene.sun_elevation,
+        scene_toml: scene.toml.clone(),
+        command_line,
+    })
+}
+
+/// Trace a coarse wavefront for the budget of energy by fate.
+fn energy(
+    plan: &Plan,
+    wavelength: f64,
+    index: Complex64,
+    size_parameter: f64,
+) -> Result<EnergyBudget, SimulateError> {
+    let last = plan.orders.iter().copied().max().unwrap_or(0);
+    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
+    let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { ENERGY_GRID };
+    let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, ENERGY_GRID, spokes));
+    // An absorbing interface mixes incident and reflected power: a term of the order of k.
+    if fates.residual.abs() > ENERGY_TOLERANCE + index.im {
+        let wavelength_nm = wavelength * 1e9;
+        return Err(SimulateError::Energy { wavelength_nm, residual: fates.residual });
+    }
+    Ok(EnergyBudget {
+        left_by_order: fates.left_by_order,
+        absorbed: fates.absorbed,
+        totally_reflected: fates.totally_reflected,
+        truncated: fates.truncated,
+        residual: fates.residual,
+    })
+}
+
+/// Trace, and make the far field ready for columns and directions.
+fn far_field<'a>(
+    scene: &Scene,
+    plan: &'a Plan,
+    index: Complex64,
+    size_parameter: f64,
+    _azimuths: &[f64],
+) -> FarField<'a> {
+    let last = plan.orders.iter().copied().max().unwrap_or(0);
+    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
+    let _ = scene;
+    let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
+    FarField::patches(&plan.shape, patch::sheets(&tracer, &wavefront, &plan.orders), size_parameter)
+}
+
+/// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.
+const FIRST_SPOKE: f64 = 0.0123;

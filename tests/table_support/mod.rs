@@ -1,0 +1,86 @@
+//! Tables made up for tests: smooth, normalised, different in every slab.
+#![allow(dead_code, reason = "each test takes what it needs")]
+
+use gonio::phase_table::{
+    Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+};
+use ndarray::{Array2, Array3};
+use num_complex::Complex64;
+use std::f64::consts::{PI, TAU};
+
+pub fn header(wavelengths: usize, theta: usize, phi: usize, quantity: Quantity) -> TableHeader {
+    let line = |count: usize, most: f64| -> Vec<f64> {
+        (0..count).map(|i| most * i as f64 / (count.max(2) - 1) as f64).collect()
+    };
+    TableHeader {
+        axes: Axes {
+            wavelength: (0..wavelengths).map(|i| (400.0 + 10.0 * i as f64) * 1e-9).collect(),
+            theta: line(theta, PI),
+            phi: line(phi, TAU),
+        },
+        quantity,
+        forward_peak: ForwardPeak::CellAverage,
+        rotational_symmetry: phi == 1,
+        method: "rays".into(),
+        shape: "raindrop".into(),
+        radius: 5e-4,
+        sun_elevation: 20f64.to_radians(),
+        scene_toml: "[particle]\nshape = \"raindrop\"\n".into(),
+        command_line: "gonio table".into(),
+    }
+}
+
+/// A Henyey–Greenstein lobe with a ripple in azimuth, normalised over the samples; polarised as
+/// Rayleigh scattering is.
+pub fn slab(header: &TableHeader, index: usize) -> Slab {
+    let axes = &header.axes;
+    let (theta, phi) = (&axes.theta, &axes.phi);
+    let g = 0.3 + 0.01 * index as f64;
+    let plain = |i: usize, j: usize| {
+        let cosine = theta[i].cos();
+        let lobe = (1.0 - g * g) / (1.0 + g * g - 2.0 * g * cosine).powf(1.5);
+        lobe * (1.0 + 0.2 * theta[i].sin().powi(2) * phi[j].cos())
+    };
+    let weights = axes.solid_angle();
+    let sum: f64 = weights.indexed_iter().map(|((i, j), w)| w * plain(i, j)).sum();
+    let values = Array3::from_shape_fn(
+        (header.quantity.elements(), theta.len(), phi.len()),
+        |(element, i, j)| {
+            let (c, s11) = (theta[i].cos(), plain(i, j) / sum);
+            let norm = 1.0 + c * c;
+            let factor = match element {
+                0 | 5 => 1.0,
+                1 | 4 => (c * c - 1.0) / norm,
+                10 | 15 => 2.0 * c / norm,
+                _ => 0.0,
+            };
+            (s11 * factor) as f32
+        },
+    );
+    Slab {
+        wavelength: axes.wavelength[index],
+        index: Complex64::new(1.33 + 1e-3 * index as f64, 1e-9),
+        values,
+        caustic_order: Some(Array2::from_shape_fn((theta.len(), phi.len()), |(i, j)| {
+            u8::from(i == theta.len() / 2 && j == index) * 3
+        })),
+        scattering_cross_section: 1.5e-6 + 1e-9 * index as f64,
+        extinction_cross_section: 1.6e-6,
+        asymmetry: g,
+        energy: Some(EnergyBudget {
+            left_by_order: vec![0.06, 0.88, 0.05, 0.009 + 1e-4 * index as f64],
+            absorbed: 1e-4,
+            totally_reflected: 2e-4,
+            truncated: 7e-4,
+            residual: 1e-12,
+        }),
+        sum_before_peak: 0.97,
+        peak_share: 0.5,
+        error_estimate: 0.01,
+    }
+}
+
+pub fn table(header: TableHeader) -> PhaseTable {
+    let slabs = (0..header.axes.wavelength.len()).map(|index| slab(&header, index)).collect();
+    PhaseTable { header, slabs }
+}

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Builds gonio and tabulates a scene: by default the built-in raindrop, into raindrop.h5 with a
+# picture beside it. Anything given here goes to `gonio table`, for example
+#   tools/run.sh data/scenes/large_drop.toml -o large_drop.h5
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+"$root/tools/setup.sh"
+(cd "$root" && cargo build --release)
+if [ $# -eq 0 ]; then
+  # The default result may be made again; any other file is replaced only on request.
+  set -- -o raindrop.h5 --overwrite
+fi
+exec "$root/target/release/gonio" table "$@"
