@@ -200,6 +200,7 @@ fn far_field<'a>(
             tolerance: scene.tolerance,
             azimuths: &azimuths,
         };
+        let tracer = tracer.with_curved_interface(size_parameter);
         return FarField::meridians(&tracer, &settings);
     }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);

@@ -5,7 +5,7 @@ mod batch;
 mod export;
 mod info;
 mod interrupt;
-#[allow(dead_code)] // used by the commands that draw
+mod material;
 mod plot;
 mod scene_flags;
 mod table;
@@ -47,6 +47,7 @@ Exit codes: 0 done, 1 failed while running, 2 wrong input.";
 
 #[derive(Subcommand)]
 enum Command {
+    Material(material::MaterialArgs),
     Table(table::TableArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
@@ -69,6 +70,7 @@ pub fn main() -> ExitCode {
 
 fn run(command: Command) -> anyhow::Result<()> {
     match command {
+        Command::Material(args) => material::run(args),
         Command::Table(args) => table::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),

@@ -8,4 +8,5 @@ pub mod phase;
 pub mod principal_value;
 pub mod riccati_bessel;
 pub mod scalar;
+pub mod spline;
 pub mod vec3;

@@ -193,10 +193,11 @@ fn solve(mut m: Vec<Vec<f64>>) -> Vec<f64> {
     for i in 0..n {
         let pivot = (i..n).max_by(|&a, &b| m[a][i].abs().total_cmp(&m[b][i].abs())).unwrap_or(i);
         m.swap(i, pivot);
-        for row in i + 1..n {
-            let factor = m[row][i] / m[i][i];
-            for column in i..=n {
-                m[row][column] -= factor * m[i][column];
+        let (done, below) = m.split_at_mut(i + 1);
+        for row in below {
+            let factor = row[i] / done[i][i];
+            for (cell, above) in row.iter_mut().zip(&done[i]).skip(i) {
+                *cell -= factor * above;
             }
         }
     }

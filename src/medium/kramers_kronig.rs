@@ -7,7 +7,7 @@
 //!
 //! `H(s) = P∫ f(x)/(x − s) dx` over the data's range (Lucarini et al. 2005, eqs. 2.45; Weidlich &
 //! Wilkie 2009, eqs. 10–12). Two methods:
-//! - **analytic**: k is a spline in ω (or straight lines) and is integrated exactly through the
+//! - **analytic**: k is a quintic spline in ω (or straight lines) and is integrated exactly through the
 //!   pole. Any spacing of rows, any wavelength, not just those of the rows.
 //! - **Maclaurin** (Ohta & Ishida 1988, as in Weidlich & Wilkie 2009, eq. 15): every other row is
 //!   summed, so that the pole is never met. Equally spaced rows only, and only at those.
@@ -16,7 +16,7 @@
 //! wing of a Lorentz band ([`Tails`]).
 
 use super::MediumError;
-use crate::math::principal_value::PiecewiseCubic;
+use crate::math::principal_value::PiecewisePolynomial;
 use std::f64::consts::PI;
 
 /// What k does beyond the ends of the data.
@@ -42,7 +42,7 @@ pub struct Absorption {
     wavelength: Vec<f64>,
     k: Vec<f64>,
     curve: crate::math::monotone::MonotoneCurve,
-    transform: PiecewiseCubic,
+    transform: PiecewisePolynomial,
 }
 
 impl Absorption {
@@ -128,13 +128,13 @@ pub fn extinction_from_index(
     Ok(wavelength.iter().map(at_row).collect())
 }
 
-fn transform(omega: &[f64], values: &[f64], between: Between) -> PiecewiseCubic {
+fn transform(omega: &[f64], values: &[f64], between: Between) -> PiecewisePolynomial {
     let last = omega.len() - 1;
     let below = (omega[1] - omega[0]).min(omega[0]);
     let above = omega[last] - omega[last - 1];
     let pieces = match between {
-        Between::Lines => PiecewiseCubic::linear(omega, values),
-        Between::Spline => PiecewiseCubic::spline(omega, values),
+        Between::Lines => PiecewisePolynomial::linear(omega, values),
+        Between::Spline => PiecewisePolynomial::spline(omega, values),
     };
     pieces.tapered(below, above)
 }

@@ -8,7 +8,6 @@ use super::table::{Table, Unit};
 use super::{Daimon, Dye, Formula, Material, Medium, MediumError, csv_table};
 use crate::math::monotone::MonotoneCurve;
 use serde::Deserialize;
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -76,17 +75,11 @@ const ALIASES: [(&str, &str); 9] = [
 
 /// A shipped table by the name of its file.
 pub(super) fn table(file: &str) -> &'static Table {
-    static TABLES: OnceLock<BTreeMap<&'static str, Table>> = OnceLock::new();
-    let tables = TABLES.get_or_init(|| {
-        shipped_files()
-            .into_iter()
-            .map(|(name, text)| {
-                let table = csv_table::parse(text, Path::new(name));
-                (name, table.expect("the shipped tables are sound: a test reads them"))
-            })
-            .collect()
-    });
-    &tables[file]
+    static TABLES: [OnceLock<Table>; FILES.len()] = [const { OnceLock::new() }; FILES.len()];
+    let sound = "the shipped tables are sound: a test reads them";
+    let index = FILES.iter().position(|(name, _)| *name == file).expect(sound);
+    TABLES[index]
+        .get_or_init(|| csv_table::parse(FILES[index].1, Path::new(FILES[index].0)).expect(sound))
 }
 
 macro_rules! shipped {
@@ -95,17 +88,16 @@ macro_rules! shipped {
     };
 }
 
-fn shipped_files() -> [(&'static str, &'static str); 7] {
-    shipped![
-        "ice_warren_brandt_2008",
-        "water_segelstein_1981",
-        "water_hale_querry_1973",
-        "water_pope_fry_1997",
-        "water_k_kedenburg_2012",
-        "diamond_phillip_taft_1964",
-        "rhodamine6g_film_seckin_2023"
-    ]
-}
+/// Names and texts of the shipped tables.
+const FILES: [(&str, &str); 7] = shipped![
+    "ice_warren_brandt_2008",
+    "water_segelstein_1981",
+    "water_hale_querry_1973",
+    "water_pope_fry_1997",
+    "water_k_kedenburg_2012",
+    "diamond_phillip_taft_1964",
+    "rhodamine6g_film_seckin_2023"
+];
 
 fn catalogue() -> &'static Catalogue {
     static CATALOGUE: OnceLock<Catalogue> = OnceLock::new();

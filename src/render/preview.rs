@@ -20,8 +20,9 @@ const WIDTH: u32 = 1280;
 const HEIGHT: u32 = 960;
 /// Scattering angles of the panel of colours, degrees: both bows and the dark band between them.
 const BOW: Range<f64> = 118.0..152.0;
-/// The heat map and the curves show this many decades below their maximum at the most.
-const DECADES: f64 = 7.0;
+/// Share of the directions that may lie below (and, in the heat map, above) the scale: the forward
+/// peak and the zeros of interference would else leave no room for the bow.
+const OFF_SCALE: f64 = 0.004;
 
 type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
@@ -70,10 +71,10 @@ fn draw_title(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     let sun = if header.rotational_symmetry {
         String::new()
     } else {
-        format!(", sun at {:.3}°", header.sun_elevation.to_degrees()).replace(".000°", "°")
+        format!(", sun at {}°", (header.sun_elevation.to_degrees() * 1e3).round() * 1e-3)
     };
-    let radius = header.radius * 1e3;
-    let title = format!("Phase function of a {} of radius {radius:.4} mm{sun}", header.shape);
+    let radius = (header.radius * 1e9).round() * 1e-6;
+    let title = format!("Phase function of a {} of radius {radius} mm{sun}", header.shape);
     area.draw(&Text::new(title, (20, 10), (FONT, 24).into_font().color(&BLACK)))?;
     let axis = &header.axes;
     let nm = |w: Option<&f64>| w.map_or(f64::NAN, |w| w * 1e9);
@@ -87,10 +88,11 @@ fn draw_title(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         ),
     };
     let line = format!(
-        "method {}, {wavelengths}, {} scattering angles × {} azimuths",
+        "method {}, {wavelengths}, {} scattering angles × {} azimuth{}",
         header.method,
         axis.theta.len(),
-        axis.phi.len()
+        axis.phi.len(),
+        if axis.phi.len() == 1 { "" } else { "s" }
     );
     area.draw(&Text::new(line, (20, 40), (FONT, 15).into_font().color(&RGBColor(90, 90, 90))))?;
     Ok(())
@@ -101,7 +103,7 @@ fn draw_sphere(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     let axes = &table.header.axes;
     let grid = DirectionGrid::new(axes);
     let mean = mean_over_wavelengths(table);
-    let range = log_range(mean.iter().copied());
+    let range = log_range(mean.iter().copied(), 1.0 - OFF_SCALE);
     let inferno = |fraction: f64| {
         let c = colorous::INFERNO.eval_continuous(fraction.clamp(0.0, 1.0));
         [c.r, c.g, c.b]
@@ -165,7 +167,7 @@ fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         .flat_map(|&i| halves.iter().map(move |half| (i, half)))
         .map(|(i, half)| (&table.slabs[i], half.0, half.1, curve(&table.slabs[i], half.0)))
         .collect();
-    let y = log_range(curves.iter().flat_map(|c| c.3.iter().map(|p| 10f64.powf(p.1))));
+    let y = log_range(curves.iter().flat_map(|c| c.3.iter().map(|p| 10f64.powf(p.1))), 1.0);
     let mut chart = ChartBuilder::on(area)
         .caption("phase function by scattering angle", (FONT, 16))
         .margin(12)
@@ -186,7 +188,7 @@ fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         .draw()?;
     for (slab, phi, name, points) in curves {
         let [r, g, b] = wavelength_srgb(slab.wavelength);
-        let color = RGBColor(r, g, b).mix(if phi == 0.0 { 1.0 } else { 0.4 });
+        let color = RGBColor(r, g, b).mix(if phi == 0.0 { 0.8 } else { 0.35 });
         chart
             .draw_series(LineSeries::new(points, color.stroke_width(1)))?
             .label(format!("{:.0} nm{name}", slab.wavelength * 1e9))
@@ -316,17 +318,13 @@ fn degrees(axis: &[f64]) -> Range<f64> {
     if to > from { from..to } else { from - 0.5..from + 0.5 }
 }
 
-/// Powers of ten that hold the positive values, `DECADES` of them at the most, padded.
-fn log_range(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in values.filter(|v| *v > 0.0 && v.is_finite()) {
-        low = low.min(value.log10());
-        high = high.max(value.log10());
-    }
-    if low > high {
-        return -1.0..1.0;
-    }
-    let low = low.max(high - DECADES);
+/// Powers of ten that hold the positive values from a low quantile up to `top`, padded.
+fn log_range(values: impl Iterator<Item = f64>, top: f64) -> Range<f64> {
+    let mut logs: Vec<f64> = values.filter(|v| *v > 0.0 && v.is_finite()).map(f64::log10).collect();
+    logs.sort_by(f64::total_cmp);
+    let Some(last) = logs.len().checked_sub(1) else { return -1.0..1.0 };
+    let at = |quantile: f64| logs[(quantile * last as f64).round() as usize];
+    let (low, high) = (at(OFF_SCALE), at(top));
     let pad = (0.03 * (high - low)).max(0.1);
     low - pad..high + pad
 }

@@ -52,6 +52,17 @@ impl<T: Scalar> Tangent<T> {
         let tangential = v - self.normal * self.normal.dot(v);
         tangential.dot(self.turn(tangential))
     }
+
+    /// Radius of curvature in the plane of the normal and a vector; that of the mean where the
+    /// vector is normal. Real part for a complex point.
+    pub fn radius_along(&self, v: Vec3<T>) -> f64 {
+        let tangential = v - self.normal * self.normal.dot(v);
+        let square = tangential.dot(tangential);
+        if square.size() < 1e-12 {
+            return 1.0;
+        }
+        (square / tangential.dot(self.turn(tangential))).re().abs().clamp(1e-3, 1e3)
+    }
 }
 
 impl Shape {
