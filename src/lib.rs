@@ -36,4 +36,7 @@ pub mod farfield;
 pub mod simulate;
 
 #[cfg(feature = "hdf5")]
+pub mod export;
+
+#[cfg(feature = "hdf5")]
 pub mod batch;

@@ -2,6 +2,7 @@
 //! output, progress bars and `anyhow`.
 
 mod batch;
+mod export;
 mod info;
 mod interrupt;
 mod material;
@@ -12,6 +13,7 @@ mod validate;
 
 use clap::{Parser, Subcommand};
 use gonio::batch::BatchError;
+use gonio::export::ExportError;
 use gonio::hdf5::TableError;
 use gonio::medium::MediumError;
 use gonio::plan::PlanError;
@@ -49,6 +51,7 @@ enum Command {
     Table(table::TableArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
+    Export(export::ExportArgs),
     Batch(batch::BatchArgs),
 }
 
@@ -71,6 +74,7 @@ fn run(command: Command) -> anyhow::Result<()> {
         Command::Table(args) => table::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),
+        Command::Export(args) => export::run(args),
         Command::Batch(args) => batch::run(args),
     }
 }
@@ -94,6 +98,7 @@ fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.is::<MediumError>()
             || cause.is::<PlanError>()
             || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
+            || cause.downcast_ref::<ExportError>().is_some_and(ExportError::is_wrong_input)
     });
     if wrong_input { WRONG_INPUT } else { FAILED }
 }

@@ -46,6 +46,7 @@
 mod body;
 mod chunk;
 mod literal;
+mod netcdf;
 mod raw;
 mod raw_read;
 mod reader;
@@ -56,6 +57,7 @@ mod sweep;
 mod writer;
 
 pub use crate::pending_file::remove_all_pending as remove_temporaries;
+pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
 pub use reader::{TableReader, read};
 pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
 pub use space::{available_bytes, estimate_bytes};
