@@ -34,3 +34,5 @@ pub mod trace;
 pub mod farfield;
 
 pub mod simulate;
+
+pub mod lee;
