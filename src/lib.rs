@@ -36,3 +36,5 @@ pub mod farfield;
 pub mod simulate;
 
 pub mod lee;
+#[cfg(feature = "hdf5")]
+pub mod batch;

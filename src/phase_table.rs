@@ -237,3 +237,140 @@ impl TableHeader {
         Ok(())
     }
 }
+
+/// How far an element may exceed S11, relative: rounding to `f32` of both.
+const ELEMENT_TOLERANCE: f64 = 1e-5;
+/// How far Σ P·ΔΩ may be from 1 where the table covers the sphere.
+pub const NORMALISATION_TOLERANCE: f64 = 1e-3;
+
+impl Axes {
+    /// True if the samples stand for all directions of the sphere.
+    pub fn cover_sphere(&self) -> bool {
+        use std::f64::consts::TAU;
+        let (theta, phi) = self.solid_angle_factors();
+        let (theta, phi): (f64, f64) = (theta.iter().sum(), phi.iter().sum());
+        (theta - 2.0).abs() < 1e-6 && (phi - TAU).abs() < 1e-6 * TAU
+    }
+}
+
+impl Slab {
+    /// Σ P·ΔΩ over the samples.
+    pub fn sum(&self, axes: &Axes) -> f64 {
+        self.moment(axes, |_| 1.0)
+    }
+
+    /// Mean cosine of the scattering angle over the samples, from the values alone (the separated
+    /// peak, if any, is not in it).
+    pub fn sampled_asymmetry(&self, axes: &Axes) -> f64 {
+        self.moment(axes, f64::cos) / self.sum(axes)
+    }
+
+    /// Σ P·f(θ)·ΔΩ over the samples.
+    fn moment(&self, axes: &Axes, weight: impl Fn(f64) -> f64) -> f64 {
+        let (theta, phi) = axes.solid_angle_factors();
+        let face = self.values.index_axis(ndarray::Axis(0), 0);
+        let rows = face.outer_iter().zip(theta.iter().zip(&axes.theta));
+        rows.map(|(row, (width, &angle))| {
+            let line: f64 = row.iter().zip(&phi).map(|(&value, w)| f64::from(value) * w).sum();
+            line * width * weight(angle)
+        })
+        .sum()
+    }
+
+    /// Mean over azimuth of one element at every θ, sr⁻¹.
+    pub fn azimuth_mean(&self, axes: &Axes, element: usize) -> Vec<f64> {
+        let (_, phi) = axes.solid_angle_factors();
+        let total: f64 = phi.iter().sum();
+        let face = self.values.index_axis(ndarray::Axis(0), element);
+        face.outer_iter()
+            .map(|row| row.iter().zip(&phi).map(|(&v, w)| f64::from(v) * w).sum::<f64>() / total)
+            .collect()
+    }
+
+    /// Check one wavelength against its header: finite, S11 ≥ |Sij|, normalised.
+    ///
+    /// `rounding` is the relative error with which values were stored (0: as computed).
+    ///
+    /// # Errors
+    /// The first thing found wrong, with its place.
+    pub fn validate(&self, header: &TableHeader, rounding: f64) -> Result<(), InvalidTable> {
+        let axes = &header.axes;
+        let place = |i: usize, j: usize| {
+            format!(
+                "at {} nm, theta {:.4}°, phi {:.4}°",
+                self.wavelength * 1e9,
+                axes.theta[i].to_degrees(),
+                axes.phi[j].to_degrees()
+            )
+        };
+        let face = self.values.index_axis(ndarray::Axis(0), 0);
+        for ((element, i, j), &value) in self.values.indexed_iter() {
+            if !value.is_finite() {
+                return Err(invalid("phase function", value, &format!("finite {}", place(i, j))));
+            }
+            let (s11, size) = (f64::from(face[(i, j)]), f64::from(value.abs()));
+            let most = s11 * (1.0 + ELEMENT_TOLERANCE + 2.0 * rounding);
+            if element > 0 && size > most {
+                let name = format!("S{}{}", element / 4 + 1, element % 4 + 1);
+                let accepted = format!("at most S11 = {s11:e} {}", place(i, j));
+                return Err(invalid(&name, value, &accepted));
+            }
+            if element == 0 && value < 0.0 {
+                return Err(invalid("S11", value, &format!("not negative {}", place(i, j))));
+            }
+        }
+        self.validate_numbers(header)
+    }
+
+    fn validate_numbers(&self, header: &TableHeader) -> Result<(), InvalidTable> {
+        let (scattering, extinction) =
+            (self.scattering_cross_section, self.extinction_cross_section);
+        if !(scattering.is_finite() && scattering > 0.0) {
+            return Err(invalid("scattering_cross_section", scattering, "a positive area in m²"));
+        }
+        if !(extinction.is_finite() && extinction >= scattering * (1.0 - 1e-6)) {
+            let accepted = "at least the scattering cross-section";
+            return Err(invalid("extinction_cross_section", extinction, accepted));
+        }
+        if !(-1.0..=1.0).contains(&self.asymmetry) {
+            return Err(invalid("asymmetry", self.asymmetry, "from −1 to 1"));
+        }
+        let expected = match header.forward_peak {
+            ForwardPeak::CellAverage => 1.0,
+            ForwardPeak::Separate => 1.0 - self.peak_share,
+            ForwardPeak::Point => return Ok(()),
+        };
+        let sum = self.sum(&header.axes);
+        if header.axes.cover_sphere() && (sum - expected).abs() > NORMALISATION_TOLERANCE {
+            let accepted = format!(
+                "{expected:.6} ± {NORMALISATION_TOLERANCE} at {} nm",
+                self.wavelength * 1e9
+            );
+            return Err(invalid("sum of P times solid angle", sum, &accepted));
+        }
+        Ok(())
+    }
+}
+
+impl PhaseTable {
+    /// Check the whole table: axes, shapes, finite values, S11 ≥ |Sij|, normalisation.
+    ///
+    /// # Errors
+    /// The first thing found wrong, with its place.
+    pub fn validate(&self) -> Result<(), InvalidTable> {
+        self.header.validate()?;
+        let axes = &self.header.axes;
+        if self.slabs.len() != axes.wavelength.len() {
+            let accepted = format!("{}, one per wavelength", axes.wavelength.len());
+            return Err(invalid("slabs", self.slabs.len(), &accepted));
+        }
+        let shape = (self.header.quantity.elements(), axes.theta.len(), axes.phi.len());
+        self.slabs.iter().try_for_each(|slab| {
+            if slab.values.dim() != shape {
+                let accepted = format!("{shape:?} (elements, theta, phi)");
+                return Err(invalid("slab shape", format!("{:?}", slab.values.dim()), &accepted));
+            }
+            slab.validate(&self.header, 0.0)
+        })
+    }
+}

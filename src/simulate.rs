@@ -5,6 +5,7 @@
 //! a [`Slab`], which is handed on before the next wavelength is computed.
 
 use crate::farfield::FarField;
+use crate::farfield::fan::FanSettings;
 use crate::farfield::patch;
 use crate::farfield::tabulate::{Tabulator, Values};
 use crate::medium::MediumError;
@@ -187,11 +188,21 @@ fn far_field<'a>(
     plan: &'a Plan,
     index: Complex64,
     size_parameter: f64,
-    _azimuths: &[f64],
+    azimuths: &[f64],
 ) -> FarField<'a> {
     let last = plan.orders.iter().copied().max().unwrap_or(0);
     let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
-    let _ = scene;
+    if plan.engine == Engine::Meridians {
+        let (azimuths, _) = plan.computed_azimuths(azimuths);
+        let settings = FanSettings {
+            size_parameter,
+            orders: &plan.orders,
+            tolerance: scene.tolerance,
+            azimuths: &azimuths,
+        };
+        let tracer = tracer.with_curved_interface(size_parameter);
+        return FarField::meridians(&tracer, &settings);
+    }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
     FarField::patches(&plan.shape, patch::sheets(&tracer, &wavefront, &plan.orders), size_parameter)
 }

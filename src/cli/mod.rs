@@ -1,14 +1,20 @@
 //! The commands of `gonio`, one file each: parse, call the library, write. Only here live terminal
 //! output, progress bars and `anyhow`.
 
+mod batch;
+mod info;
 mod interrupt;
-#[allow(dead_code)] // used by the commands that draw
+mod material;
 mod plot;
 mod scene_flags;
 mod table;
+mod validate;
 
 use clap::{Parser, Subcommand};
+use gonio::batch::BatchError;
+use gonio::hdf5::TableError;
 use gonio::medium::MediumError;
+use gonio::plan::PlanError;
 use gonio::scene::SceneError;
 use std::process::ExitCode;
 
@@ -39,7 +45,11 @@ Exit codes: 0 done, 1 failed while running, 2 wrong input.";
 
 #[derive(Subcommand)]
 enum Command {
+    Material(material::MaterialArgs),
     Table(table::TableArgs),
+    Info(info::InfoArgs),
+    Validate(validate::ValidateArgs),
+    Batch(batch::BatchArgs),
 }
 
 /// Parse the command line, run the command, map errors to exit codes.
@@ -57,7 +67,11 @@ pub fn main() -> ExitCode {
 
 fn run(command: Command) -> anyhow::Result<()> {
     match command {
+        Command::Material(args) => material::run(args),
         Command::Table(args) => table::run(args),
+        Command::Info(args) => info::run(args),
+        Command::Validate(args) => validate::run(args),
+        Command::Batch(args) => batch::run(args),
     }
 }
 
@@ -70,8 +84,16 @@ fn start_threads(threads: Option<u16>) -> anyhow::Result<()> {
 
 /// Wrong input is told from failure by the kind of error anywhere in the chain of causes.
 fn exit_code(error: &anyhow::Error) -> u8 {
+    // The codes of a batch tell drivers whether to try again.
+    if let Some(error) = error.downcast_ref::<BatchError>() {
+        return error.exit_code();
+    }
     let wrong_input = error.chain().any(|cause| {
-        cause.is::<UsageError>() || cause.is::<SceneError>() || cause.is::<MediumError>()
+        cause.is::<UsageError>()
+            || cause.is::<SceneError>()
+            || cause.is::<MediumError>()
+            || cause.is::<PlanError>()
+            || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
     });
     if wrong_input { WRONG_INPUT } else { FAILED }
 }

@@ -4,13 +4,18 @@
 //! [`interference`] of all patches that contain a direction; diffraction by the
 //! [`gaussian_filter`] of Sadeghi et al. 2012; [`forward_diffraction`] by the silhouette.
 
+pub mod arc;
 pub mod collecting_sphere;
 pub mod direction;
+pub mod fan;
+pub mod fold;
 pub mod forward_diffraction;
 pub mod forward_peak;
 pub mod gaussian_filter;
 pub mod interference;
+pub mod meridian;
 pub mod patch;
+pub mod sweep;
 pub mod tabulate;
 
 pub use collecting_sphere::CollectingSphere;
@@ -18,8 +23,11 @@ pub use direction::Direction;
 
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
+use crate::trace::Tracer;
+use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
 use interference::{Interference, PathInterpolation};
+use std::f64::consts::{PI, TAU};
 use tabulate::Column;
 
 /// The far field of one wavelength, ready to be asked for columns or single directions.
@@ -33,6 +41,7 @@ pub struct FarField<'a> {
 /// How amplitudes are found.
 enum Source {
     Patches(CollectingSphere, Interference),
+    Meridians(Fan),
 }
 
 impl<'a> FarField<'a> {
@@ -45,6 +54,24 @@ impl<'a> FarField<'a> {
             silhouette: ForwardDiffraction::new(shape),
             size_parameter,
             _shape: shape,
+        }
+    }
+
+    /// Meridians with uniform Airy functions at their folds.
+    pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
+        Self {
+            source: Source::Meridians(Fan::new(tracer, settings)),
+            silhouette: ForwardDiffraction::new(tracer.shape()),
+            size_parameter: settings.size_parameter,
+            _shape: tracer.shape(),
+        }
+    }
+
+    /// Orders that the method could not represent.
+    pub fn irregular(&self) -> &[u32] {
+        match &self.source {
+            Source::Patches(..) => &[],
+            Source::Meridians(fan) => &fan.irregular,
         }
     }
 
@@ -73,26 +100,57 @@ impl<'a> FarField<'a> {
                 }
                 column
             }
+            Source::Meridians(fan) => Column {
+                amplitude: fan.column(theta, phi),
+                incoherent: Vec::new(),
+                rays: Vec::new(),
+                caustic_order: fan.caustic_order(theta),
+            },
         }
     }
 
     /// Amplitudes in single directions `(θ, φ)`, with forward diffraction where asked.
     pub fn scatter(&self, directions: &[(f64, f64)], diffraction: bool) -> Vec<AmplitudeMatrix> {
-        directions
-            .iter()
-            .map(|&(theta, phi)| {
+        let mut amplitudes = match &self.source {
+            Source::Patches(sphere, interference) => directions
+                .iter()
+                .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
+                .collect(),
+            Source::Meridians(fan) => scatter_by_columns(fan, directions),
+        };
+        if diffraction {
+            for (amplitude, &(theta, phi)) in amplitudes.iter_mut().zip(directions) {
                 let direction = Direction::new(theta, phi);
-                let mut amplitude = match &self.source {
-                    Source::Patches(sphere, interference) => {
-                        interference.collect(sphere, &direction).amplitude
-                    }
-                };
-                if diffraction {
-                    let tail = self.silhouette.tail(self.size_parameter, &direction);
-                    forward_peak::add(&mut amplitude, tail);
-                }
-                amplitude
-            })
-            .collect()
+                let tail = self.silhouette.tail(self.size_parameter, &direction);
+                forward_peak::add(amplitude, tail);
+            }
+        }
+        amplitudes
     }
+}
+
+/// Directions grouped into columns of equal azimuth, each swept in ascending θ.
+fn scatter_by_columns(fan: &Fan, directions: &[(f64, f64)]) -> Vec<AmplitudeMatrix> {
+    let folded = |phi: f64| {
+        let turned = phi.rem_euclid(TAU);
+        if turned > PI { (TAU - turned, true) } else { (turned, false) }
+    };
+    let mut order: Vec<usize> = (0..directions.len()).collect();
+    let key = |&i: &usize| (folded(directions[i].1).0, directions[i].0);
+    order.sort_by(|a, b| {
+        let (a, b) = (key(a), key(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    let mut amplitudes = vec![AmplitudeMatrix::default(); directions.len()];
+    for group in order.chunk_by(|a, b| key(a).0 == key(b).0) {
+        let theta: Vec<f64> = group.iter().map(|&i| directions[i].0).collect();
+        let column = fan.column(&theta, key(&group[0]).0);
+        for (&i, mut amplitude) in group.iter().zip(column) {
+            if folded(directions[i].1).1 {
+                (amplitude.s3, amplitude.s4) = (-amplitude.s3, -amplitude.s4);
+            }
+            amplitudes[i] = amplitude;
+        }
+    }
+    amplitudes
 }

@@ -10,6 +10,9 @@ use super::{TableError, WriteOptions};
 use crate::phase_table::{Quantity, Slab, TableHeader};
 use ndarray::{Array2, ArrayView2};
 
+/// Variables that accompany the values without being dimensions.
+const COORDINATES: &str = "angle_from_antisolar_point radius_um sun_elevation solar_zenith_angle";
+
 /// The values of a table or a sweep, being written.
 pub(super) struct Body {
     values: NewDataset,
@@ -67,7 +70,7 @@ impl Body {
                 }
             },
         )?;
-        values.attribute("coordinates", "angle_from_antisolar_point radius_um sun_elevation")?;
+        values.attribute("coordinates", COORDINATES)?;
         if let Some(bits) = options.bit_round {
             let name = "_QuantizeBitRoundNumberOfSignificantBits";
             values.attribute_integer(name, i32::from(bits))?;

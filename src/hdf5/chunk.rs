@@ -15,8 +15,12 @@ const STORED_BLOCK: usize = 65_535;
 const NOISE_BITS: f64 = 7.8;
 /// Bytes of a plane that are compressed on trial.
 const TRIAL: usize = 8192;
-/// Repeats pay where a trial compresses to less than this part of the entropy.
-const REPEATS_PAY: f64 = 0.95;
+/// The search for repeats pays where it saves this many bits per byte of a plane: at level 1, and
+/// where time matters less. Half a bit is 1.6 % of a file.
+const REPEATS_PAY_FAST: f64 = 0.5;
+const REPEATS_PAY: f64 = 0.1;
+/// Bytes per block of literals; each block has a code of its own (150 bytes).
+const LITERAL_BLOCK: usize = 32_768;
 
 /// How a byte plane is coded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +33,7 @@ enum Coding {
 /// Turns chunks of `f32` values or bytes into what is stored; keeps its buffers between chunks.
 pub(super) struct ChunkEncoder {
     compressor: Option<Compressor>,
+    repeats_pay: f64,
     bit_round: Option<u8>,
     shuffled: Vec<u8>,
     /// The chunk to encode: filled by the caller.
@@ -42,10 +47,12 @@ pub(super) struct ChunkEncoder {
 impl ChunkEncoder {
     /// `level` 0 stores, 1 … 9 deflate; `bit_round` keeps that many bits of the mantissa.
     pub fn new(level: u8, bit_round: Option<u8>) -> ChunkEncoder {
+        let repeats_pay = if level == 1 { REPEATS_PAY_FAST } else { REPEATS_PAY };
         let level = CompressionLvl::new(i32::from(level.min(9))).unwrap_or_default();
         let stored = i32::from(level) == 0;
         ChunkEncoder {
             compressor: (!stored).then(|| Compressor::new(level)),
+            repeats_pay,
             bit_round,
             shuffled: Vec::new(),
             values: Vec::new(),
@@ -71,7 +78,7 @@ impl ChunkEncoder {
         let count = self.values.len();
         let plane = |plane: usize| &self.shuffled[plane * count..][..count];
         let codings: Vec<Coding> = (0..4)
-            .map(|p| coding(compressor, plane(p), &mut self.encoded))
+            .map(|p| coding(compressor, plane(p), self.repeats_pay, &mut self.encoded))
             .take_while(|coding| *coding != Coding::Deflate)
             .collect();
         self.encoded.clear();
@@ -165,16 +172,24 @@ fn entropy(bytes: &[u8]) -> f64 {
     plain + (used.count() as f64 - 1.0) / (2.0 * total * std::f64::consts::LN_2)
 }
 
-/// Choose a coding for a plane: compress a part from its middle on trial, compare with its entropy.
-fn coding(compressor: &mut Compressor, plane: &[u8], scratch: &mut Vec<u8>) -> Coding {
+/// Choose a coding for a plane: compress a part from its middle on trial, compare with what
+/// literals and runs alone take there.
+fn coding(
+    compressor: &mut Compressor,
+    plane: &[u8],
+    repeats_pay: f64,
+    scratch: &mut Vec<u8>,
+) -> Coding {
     let length = plane.len().min(TRIAL);
     let trial = &plane[(plane.len() - length) / 2..][..length];
-    let entropy = entropy(plane);
     scratch.resize(compressor.deflate_compress_bound(length), 0);
     let compressed = compressor.deflate_compress(trial, scratch).unwrap_or(length);
-    if 8.0 * compressed as f64 <= REPEATS_PAY * entropy * length as f64 {
+    scratch.clear();
+    super::literal::append_block(trial, scratch);
+    let saved = scratch.len() as f64 - compressed as f64 - super::literal::HEADER_BYTES;
+    if 8.0 * saved >= repeats_pay * length as f64 {
         Coding::Deflate
-    } else if entropy > NOISE_BITS {
+    } else if entropy(plane) > NOISE_BITS {
         Coding::Stored
     } else {
         Coding::Literals
@@ -194,7 +209,10 @@ fn zlib(
     out.extend_from_slice(&[0x78, 0x01]);
     for (coding, bytes) in codings.iter().zip(planes.chunks(plane.max(1))) {
         match coding {
-            Coding::Literals => super::literal::append_block(bytes, out),
+            Coding::Literals => {
+                let blocks = bytes.chunks(LITERAL_BLOCK);
+                blocks.for_each(|block| super::literal::append_block(block, out));
+            }
             Coding::Stored | Coding::Deflate => append_stored(bytes, out),
         }
     }

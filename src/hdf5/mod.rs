@@ -37,7 +37,7 @@
 //! **Sweeps** ([`SweepWriter`]) have the same variables with one more leading dimension per swept
 //! value (`radius_um`, `sun_elevation`, …, in this order before `wavelength_nm`), `present`
 //! (leading dimensions; 1 where a table is there, else its values are NaN) and the root attribute
-//! `format` = `gonio phase table sweep`.
+//! `format` = `gonio phase table sweep`; `sweep_axes` names the swept dimensions in order.
 //!
 //! Chunks are (1, …, rows of θ, φ), at most a mebibyte, shuffled and deflated; no filter beyond
 //! these two. Objects carry no time stamps: equal input gives equal bytes. A file appears under its
@@ -52,12 +52,14 @@ mod reader;
 mod record;
 mod schema;
 mod space;
+mod sweep;
 mod writer;
 
 pub use crate::pending_file::remove_all_pending as remove_temporaries;
 pub use reader::{TableReader, read};
 pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
 pub use space::{available_bytes, estimate_bytes};
+pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter};
 pub use writer::{TableWriter, WriteOptions, write};
 
 use crate::phase_table::InvalidTable;

@@ -46,6 +46,8 @@ pub(super) enum Kind {
     U8,
     /// Strings of this many bytes, padded with zeros.
     Text(usize),
+    /// Strings of any length: what h5netcdf and netCDF-C both show as text in variables.
+    Texts,
 }
 
 impl Kind {
@@ -55,6 +57,7 @@ impl Kind {
             Kind::F64 => 8,
             Kind::U8 => 1,
             Kind::Text(length) => length,
+            Kind::Texts => size_of::<*const c_char>(),
         }
     }
 }
@@ -125,6 +128,11 @@ impl NewFile {
             // SAFETY: identifiers are checked, shapes and chunk shapes have the same rank.
             let creation = property_list(path, *H5P_DATASET_CREATE)?;
             done(path, h5p::H5Pset_obj_track_times(creation.id, 0))?;
+            if kind == Kind::F32 {
+                let nothing = f32::NAN;
+                let (kind, value) = (*H5T_IEEE_F32LE, (&raw const nothing).cast::<c_void>());
+                done(path, h5p::H5Pset_fill_value(creation.id, kind, value))?;
+            }
             if let Some(chunking) = chunking {
                 let rank = shape.len() as c_int;
                 done(path, h5p::H5Pset_chunk(creation.id, rank, chunking.shape.as_ptr()))?;
@@ -175,6 +183,14 @@ impl NewDataset {
             let status = h5d::H5Dwrite(self.id.id, kind.id, all, all, h5p::H5P_DEFAULT, buffer);
             done(&self.path, status)
         })
+    }
+
+    /// Write all strings of a dataset of [`Kind::Texts`].
+    pub fn write_texts(&self, texts: &[String]) -> Result<(), TableError> {
+        assert_eq!(self.kind, Kind::Texts, "a dataset of strings");
+        let texts = texts.iter().map(|text| c_text(&self.path, text));
+        let texts = texts.collect::<Result<Vec<CString>, _>>()?;
+        self.write(&texts.iter().map(|text| text.as_ptr()).collect::<Vec<_>>())
     }
 
     /// Write one chunk as it is, already through the dataset's filters.
@@ -275,12 +291,17 @@ unsafe fn datatype(path: &Path, kind: Kind) -> Result<Id, TableError> {
         Kind::F64 => *H5T_IEEE_F64LE,
         Kind::I32 => *H5T_STD_I32LE,
         Kind::U8 => *H5T_STD_U8LE,
-        Kind::Text(_) => *H5T_C_S1,
+        Kind::Text(_) | Kind::Texts => *H5T_C_S1,
     };
     let id = owned(path, unsafe { h5t::H5Tcopy(base) }, h5t::H5Tclose)?;
-    if let Kind::Text(length) = kind {
+    let size = match kind {
+        Kind::Text(length) => Some(length.max(1)),
+        Kind::Texts => Some(h5t::H5T_VARIABLE),
+        _ => None,
+    };
+    if let Some(size) = size {
         unsafe {
-            done(path, h5t::H5Tset_size(id.id, length.max(1)))?;
+            done(path, h5t::H5Tset_size(id.id, size))?;
             done(path, h5t::H5Tset_cset(id.id, h5t::H5T_cset_t::H5T_CSET_UTF8))?;
         }
     }

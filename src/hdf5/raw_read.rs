@@ -185,21 +185,32 @@ impl OpenDataset {
         Ok(values)
     }
 
-    /// Read one-dimensional strings of fixed length.
+    /// Read one-dimensional strings of any length.
     pub fn read_texts(&self) -> Result<Vec<String>, TableError> {
         let path = &self.path;
         let bad = || damaged(path, &format!("{} is not a list of strings", self.name));
-        let count = self.shape.iter().product::<u64>();
+        let count = self.shape.iter().try_fold(1u64, |product, &n| product.checked_mul(n));
+        let count = count.filter(|&count| count <= self.most_bytes / 8).ok_or_else(bad)? as usize;
         sync(|| unsafe {
-            // SAFETY: the buffer has the size of the dataset's own type times its count.
+            // SAFETY: the type is that of strings of variable length, checked; the buffer has a
+            // pointer for each; what the library allocated goes back to it after copying.
             let kind = owned(path, h5d::H5Dget_type(self.id.0), h5t::H5Tclose)?;
-            let size = fixed_text_size(&kind).ok_or_else(bad)?;
-            let bytes = count.checked_mul(size as u64).filter(|&b| b <= self.most_bytes);
-            let mut buffer = vec![0u8; bytes.ok_or_else(bad)? as usize];
-            let all = h5s::H5S_ALL;
-            let data = buffer.as_mut_ptr().cast::<c_void>();
-            done(path, h5d::H5Dread(self.id.0, kind.0, all, all, h5p::H5P_DEFAULT, data))?;
-            Ok(buffer.chunks(size).map(trimmed).collect())
+            if h5t::H5Tis_variable_str(kind.0) <= 0 {
+                return Err(bad());
+            }
+            let mut texts: Vec<*mut c_char> = vec![ptr::null_mut(); count];
+            let (all, data) = (h5s::H5S_ALL, texts.as_mut_ptr().cast::<c_void>());
+            let status = h5d::H5Dread(self.id.0, kind.0, all, all, h5p::H5P_DEFAULT, data);
+            let copy = |text: *mut c_char| {
+                if text.is_null() {
+                    return String::new();
+                }
+                let copy = std::ffi::CStr::from_ptr(text).to_string_lossy().into_owned();
+                hdf5_sys::h5::H5free_memory(text.cast::<c_void>());
+                copy
+            };
+            let texts = texts.into_iter().map(copy).collect();
+            done(path, status).map(|()| texts)
         })
     }
 

@@ -3,7 +3,9 @@
 use super::TableError;
 use super::raw_read::{OpenFile, damaged, foreign};
 use super::record::{ENERGY, PLAIN, Record};
-use super::schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name};
+use super::schema::{
+    ELEMENTS, FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name,
+};
 use super::writer::invalid;
 use crate::phase_table::{
     Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
@@ -212,6 +214,7 @@ fn read_angles(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
     Ok(read_line(file, name)?.iter().map(|degrees| degrees / 180.0 * PI).collect())
 }
 
+/// A scalar variable; NaN where it is an axis of a sweep.
 fn read_scalar(file: &OpenFile, name: &str) -> Result<f64, TableError> {
     let data = file.required(name)?;
     if data.shape.is_empty() { Ok(data.read::<f64>()?[0]) } else { Ok(f64::NAN) }
@@ -231,6 +234,13 @@ fn check_shapes(file: &OpenFile, header: &TableHeader) -> Result<bool, TableErro
     if found != expected {
         let message = format!("{name} has shape {found:?}, the axes say {expected:?}");
         return Err(damaged(&file.path, &message));
+    }
+    if header.quantity == Quantity::Mueller {
+        let elements = file.required("mueller_element")?.read_texts()?;
+        if elements != ELEMENTS {
+            let message = format!("mueller_element is {elements:?}, expected 11, 12, … 44");
+            return Err(damaged(&file.path, &message));
+        }
     }
     Ok(file.dataset("caustic_order")?.is_some())
 }

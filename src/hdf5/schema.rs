@@ -86,8 +86,8 @@ impl Dimensions {
         let element = match quantity {
             Quantity::PhaseFunction => None,
             Quantity::Mueller => {
-                let element = file.dataset("mueller_element", Kind::Text(2), &[16], None)?;
-                element.write(ELEMENTS.concat().as_bytes())?;
+                let element = file.dataset("mueller_element", Kind::Texts, &[16], None)?;
+                element.write_texts(&ELEMENTS.map(String::from))?;
                 element.attribute("long_name", "element of the Mueller matrix, row and column")?;
                 element.make_scale("mueller_element")?;
                 Some(element)

@@ -74,7 +74,7 @@ impl TableWriter {
         write_root(&file, header, FORMAT, &options)?;
         let dimensions = Dimensions::create(&file, &header.axes, header.quantity)?;
         dimensions.write_solid_angle(&file, &header.axes)?;
-        write_circumstances(&file, header)?;
+        write_circumstances(&file, header, |_| false)?;
         let body = Body::create(&file, header, &dimensions, &[], &options)?;
         let records = vec![None; header.axes.wavelength.len()];
         Ok(TableWriter { body, dimensions, file, output, header: header.clone(), records })
@@ -127,8 +127,12 @@ pub fn write(path: &Path, table: &PhaseTable, options: WriteOptions) -> Result<(
     writer.finish()
 }
 
-/// The scalars of a table: radius and sun.
-fn write_circumstances(file: &NewFile, header: &TableHeader) -> Result<(), TableError> {
+/// The scalars of a table, radius and sun, without those that are `swept`.
+pub(super) fn write_circumstances(
+    file: &NewFile,
+    header: &TableHeader,
+    swept: impl Fn(&str) -> bool,
+) -> Result<(), TableError> {
     let elevation = degree(header.sun_elevation);
     let scalars = [
         (
@@ -154,6 +158,9 @@ fn write_circumstances(file: &NewFile, header: &TableHeader) -> Result<(), Table
         ),
     ];
     for (name, value, units, standard_name, words) in scalars {
+        if swept(name) || (name == "solar_zenith_angle" && swept("sun_elevation")) {
+            continue;
+        }
         let data = file.dataset(name, Kind::F64, &[], None)?;
         data.write(&[value])?;
         data.attribute("units", units)?;

@@ -1,6 +1,10 @@
 //! Mathematics without physics: special functions, kernels, interpolation, quadrature.
 
+pub mod airy;
+pub mod chebyshev;
+pub mod interpolate;
 pub mod monotone;
+pub mod phase;
 pub mod principal_value;
 pub mod riccati_bessel;
 pub mod scalar;

@@ -131,7 +131,12 @@ impl Medium {
             Medium::Daimon(water) => water.source().into(),
             Medium::Material(m) if m.extrapolate => {
                 let (from, to) = m.range;
-                format!("{} | extrapolated beyond {} to {} nm", m.source, from * 1e9, to * 1e9)
+                format!(
+                    "{} | extrapolated beyond {} to {} nm",
+                    m.source,
+                    nanometres(from),
+                    nanometres(to)
+                )
             }
             Medium::Material(material) => material.source.clone(),
             Medium::Solution(solution) => solution.source(),
@@ -159,14 +164,17 @@ fn check_range(name: &str, wavelength: f64, range: (f64, f64)) -> Result<(), Med
     if wavelength >= range.0 * (1.0 - 1e-12) && wavelength <= range.1 * (1.0 + 1e-12) {
         return Ok(());
     }
-    // Nanometres to a millionth: 400 reads better than 400.00000000000006.
-    let nm = |metres: f64| (metres * 1e15).round() / 1e6;
     Err(MediumError::OutOfRange {
         name: name.into(),
-        wavelength_nm: nm(wavelength),
-        from_nm: nm(range.0),
-        to_nm: nm(range.1),
+        wavelength_nm: nanometres(wavelength),
+        from_nm: nanometres(range.0),
+        to_nm: nanometres(range.1),
     })
+}
+
+/// Nanometres to a millionth, for messages: 400 reads better than 400.00000000000006.
+fn nanometres(metres: f64) -> f64 {
+    (metres * 1e15).round() / 1e6
 }
 
 /// Largest file of optical data that is read, bytes; the largest of the databases has 2 MB.

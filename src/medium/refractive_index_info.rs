@@ -7,7 +7,7 @@
 use super::table::{Column, Table, TableBuilder, Unit, file_error};
 use super::{Formula, Material, MediumError};
 use crate::math::monotone::MonotoneCurve;
-use saphyr_parser::{Event, Parser, ScalarStyle};
+use saphyr_parser::{Event, Parser};
 use std::path::Path;
 
 /// Deepest nesting that a file may have; the database needs five.
@@ -123,7 +123,7 @@ fn flatten(text: &str, path: &Path) -> Result<Vec<Entry>, MediumError> {
             Event::Alias(_) => {
                 return Err(file_error(path, Some(line), "YAML aliases are not accepted"));
             }
-            Event::Scalar(value, style, ..) => {
+            Event::Scalar(value, ..) => {
                 if let Some(Level::Map(key @ None)) = levels.last_mut() {
                     *key = Some(value.into_owned());
                     continue;
@@ -135,9 +135,6 @@ fn flatten(text: &str, path: &Path) -> Result<Vec<Entry>, MediumError> {
                         Level::Map(key) => key.clone().unwrap_or_default(),
                     })
                     .collect();
-                // A block of text starts on the line below its `|` or `>`.
-                let below = matches!(style, ScalarStyle::Literal | ScalarStyle::Folded);
-                let line = line + usize::from(below);
                 entries.push(Entry { path: keys.join("."), value: value.into_owned(), line });
                 if let Some(Level::Map(key)) = levels.last_mut() {
                     *key = None;

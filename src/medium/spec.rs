@@ -272,12 +272,13 @@ fn constant(n: f64, k: f64) -> Result<Medium, MediumError> {
     Ok(Medium::Constant(Complex64::new(n, k)))
 }
 
-/// A medium by a formula of the user's: valid between the poles about visible light.
+/// A medium by a formula of the user's: valid between the poles on either side of visible light.
 fn from_formula(name: &str, formula: Formula) -> Result<Medium, MediumError> {
     let (from, to) = formula.interval_about(0.58);
     // Wavelengths that anyone may ask for, and a hair's breadth off the poles.
     let (from, to) = ((from * 1.000_001).max(0.1), (to * 0.999_999).min(20.0));
-    formula.check_range(from.max(0.38), to.min(0.78))?;
+    // Visible light must be in it: a pole there is a slip of the pen, not a wish.
+    formula.check_range(0.38, 0.78)?;
     let material = Material {
         name: name.into(),
         source: "given by its coefficients".into(),

@@ -4,6 +4,7 @@
 //! so that `|r|² + |t|² = 1`. Written as `2 √(cᵢ m cₜ) / (…)`, `t` stays finite at grazing incidence.
 //! With `exp(-iωt)` the evanescent wave under total reflection has `cos θt = +i |cos θt|`.
 
+use super::grazing::Grazing;
 use crate::math::scalar::Scalar;
 use num_complex::Complex64;
 
@@ -38,6 +39,36 @@ pub fn fresnel<T: Scalar>(cos_incidence: T, relative_index: Complex64) -> Fresne
     Fresnel {
         r_perpendicular: (c - mct) * perpendicular,
         r_parallel: (m * c - transmitted) * parallel,
+        t_perpendicular: root * perpendicular,
+        t_parallel: root * parallel,
+    }
+}
+
+/// Coefficients of a curved interface for a wave from outside (index `m` behind), for the cosine
+/// outside and what stands for it on the curved surface. `r` holds for reflection outside.
+pub fn curved_from_outside<T: Scalar>(cos: T, index: Complex64, grazing: &Grazing) -> Fresnel {
+    let c = cos.complex();
+    let inside = (1.0 - (1.0 - c * c) / (index * index)).sqrt();
+    let g = grazing;
+    let (mct, root) = (index * inside, 2.0 * g.root * (index * inside).sqrt());
+    let (perpendicular, parallel) = ((g.lambda + mct).inv(), (index * g.lambda + inside).inv());
+    Fresnel {
+        r_perpendicular: (g.lambda_in - mct) * perpendicular * g.turn,
+        r_parallel: (index * g.lambda_in - inside) * parallel * g.turn,
+        t_perpendicular: root * perpendicular,
+        t_parallel: root * parallel,
+    }
+}
+
+/// The same for a wave from inside, for the cosine inside; `index` is that of the inside.
+pub fn curved_from_inside<T: Scalar>(cos: T, index: Complex64, grazing: &Grazing) -> Fresnel {
+    let inside = cos.complex();
+    let g = grazing;
+    let (mct, root) = (index * inside, 2.0 * g.root * (index * inside).sqrt());
+    let (perpendicular, parallel) = ((g.lambda + mct).inv(), (index * g.lambda + inside).inv());
+    Fresnel {
+        r_perpendicular: (mct - g.lambda) * perpendicular,
+        r_parallel: (inside - index * g.lambda) * parallel,
         t_perpendicular: root * perpendicular,
         t_parallel: root * parallel,
     }

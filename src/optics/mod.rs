@@ -25,6 +25,8 @@
 
 mod amplitude;
 mod fresnel;
+mod grazing;
 
 pub use amplitude::AmplitudeMatrix;
-pub use fresnel::{Fresnel, fresnel};
+pub use fresnel::{Fresnel, curved_from_inside, curved_from_outside, fresnel};
+pub use grazing::Grazing;

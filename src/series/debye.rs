@@ -145,7 +145,11 @@ struct Inside {
 /// Beyond this |ξ⁽¹⁾|² the wave does not reach the inside any more: T < 1e-200.
 const EVANESCENT: f64 = 1e200;
 
-/// L⁽ʲ⁾, ξ⁽¹⁾/ξ⁽²⁾ and ξ⁽²⁾⁻² at y for n = 1 … `terms`. Carries `Z_n = ξ⁽¹⁾_n exp(-iy)` upward.
+/// `Z_n` is scaled down when it has grown to this.
+const TALL: f64 = 1e100;
+
+/// L⁽ʲ⁾, ξ⁽¹⁾/ξ⁽²⁾ and ξ⁽²⁾⁻² at y for n = 1 … `terms`. Carries `Z_n = ξ⁽¹⁾_n exp(-iy)` upward,
+/// scaled: `phase Z_n² = ξ⁽¹⁾²`.
 fn inside_waves(y: Complex64, terms: usize) -> Vec<Inside> {
     let psi_ratio: Box<dyn Fn(usize) -> Complex64> = if y.im == 0.0 {
         let real = ratios(y.re, terms + 1);
@@ -155,15 +159,21 @@ fn inside_waves(y: Complex64, terms: usize) -> Vec<Inside> {
         Box::new(move |n| complex[n])
     };
     let inverse = 1.0 / y;
-    let phase = (2.0 * Complex64::I * y).exp();
+    let mut exponent = 2.0 * Complex64::I * y;
+    let mut phase = exponent.exp();
     let (mut before, mut z) = (Complex64::ONE, -Complex64::I);
     let mut evanescent = false;
     let mut out = Vec::with_capacity(terms);
     for n in 1..=terms {
         (before, z) = (z, (2 * n - 1) as f64 * inverse * z - before);
+        if z.norm_sqr() > TALL * TALL {
+            (before, z) = (before / TALL, z / TALL);
+            exponent += 2.0 * TALL.ln();
+            phase = exponent.exp();
+        }
         let outgoing = before / z - n as f64 * inverse;
         let square = phase * z * z;
-        evanescent |= square.norm_sqr() > EVANESCENT * EVANESCENT;
+        evanescent |= square.norm() > EVANESCENT;
         let regular = (n + 1) as f64 * inverse - psi_ratio(n + 1);
         if evanescent {
             (before, z) = (before / z, Complex64::ONE);

@@ -52,6 +52,17 @@ impl<T: Scalar> Tangent<T> {
         let tangential = v - self.normal * self.normal.dot(v);
         tangential.dot(self.turn(tangential))
     }
+
+    /// Radius of curvature in the plane of the normal and a vector; that of the mean where the
+    /// vector is normal. Real part for a complex point.
+    pub fn radius_along(&self, v: Vec3<T>) -> f64 {
+        let tangential = v - self.normal * self.normal.dot(v);
+        let square = tangential.dot(tangential);
+        if square.size() < 1e-12 {
+            return 1.0;
+        }
+        (square / tangential.dot(self.turn(tangential))).re().abs().clamp(1e-3, 1e3)
+    }
 }
 
 impl Shape {
@@ -128,7 +139,8 @@ impl<'a, T: Scalar> Line<'a, T> {
             // (F/t)' = (F' - F/t)/t
             let step = f / (slope - f / t);
             let mut next = t - step;
-            if !(next.re() > low * 0.5 && next.re() < high * 1.5) {
+            // A complex chord has no order on it, and starts close to its root.
+            if T::REAL && !(next.re() > low * 0.5 && next.re() < high * 1.5) {
                 next = T::real(0.5 * (low + high));
             }
             let change = (next - t).size();
@@ -158,7 +170,7 @@ impl<'a, T: Scalar> Line<'a, T> {
                 high = t.re()
             }
             let mut next = t - f / slope;
-            if !(next.re() >= low && next.re() <= high) {
+            if T::REAL && !(next.re() >= low && next.re() <= high) {
                 next = T::real(0.5 * (low + high));
             }
             let change = (next - t).size();
@@ -189,7 +201,7 @@ impl<'a, T: Scalar> Line<'a, T> {
             }
         }
         let depth = self.at(t).0;
-        if depth.re() > 0.0 {
+        if T::REAL && depth.re() > 0.0 {
             return None;
         }
         Some((t, t - (-(depth * 2.0) / self.bend(t)).root()))

@@ -22,6 +22,11 @@ impl Silhouette<'_> {
     ///
     /// Newton's method on `F = 0` and `∂F/∂t = 0` in `(ρ, t)`.
     pub fn radius(&self, azimuth: f64) -> f64 {
+        self.radius_and_slope(azimuth).0
+    }
+
+    /// The radius, and its derivative with respect to the azimuth.
+    pub fn radius_and_slope(&self, azimuth: f64) -> (f64, f64) {
         let (sin, cos) = azimuth.sin_cos();
         let along = Vec3 { x: cos, y: sin, z: 0.0 };
         let down = self.shape.down;
@@ -47,7 +52,13 @@ impl Silhouette<'_> {
                 break;
             }
         }
-        rho
+        // On the contour the gradient has no part along the light: dF = F_along dρ + F_turn ρ dψ.
+        let x = along * rho + Vec3 { x: 0.0, y: 0.0, z: t };
+        let s = self.shape.slope(x.dot(x), down.dot(x));
+        let across = Vec3 { x: -sin, y: cos, z: 0.0 };
+        let by_rho = s.q * 2.0 * rho + s.z * down.dot(along);
+        let by_turn = s.z * down.dot(across) * rho;
+        (rho, -by_turn / by_rho)
     }
 
     /// Area of the shadow, in units of the square of the radius of equal volume.

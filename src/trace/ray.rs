@@ -2,7 +2,7 @@
 
 use super::exit::Exit;
 use super::focal_lines;
-use super::surface_event::Event;
+use super::surface_event::{Event, Interface};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{Field, Vec3};
 use crate::shape::Shape;
@@ -33,6 +33,7 @@ pub struct Tracer<'a> {
     /// Decrease of amplitude per unit of chord length: `k₀ a κ`.
     decrement: f64,
     last_order: u32,
+    interface: Interface,
 }
 
 /// What is left of a ray's power when tracing stops, as fractions of what it brought.
@@ -46,7 +47,16 @@ pub struct Remainder {
 impl<'a> Tracer<'a> {
     /// A tracer up to `last_order`; `size_parameter` matters only for absorption.
     pub fn new(shape: &'a Shape, index: Complex64, size_parameter: f64, last_order: u32) -> Self {
-        Self { shape, index, decrement: size_parameter * index.im, last_order }
+        let decrement = size_parameter * index.im;
+        let interface = Interface { index, curved: None };
+        Self { shape, index, decrement, last_order, interface }
+    }
+
+    /// The same tracer with the surface's curvature in its Fresnel coefficients (see
+    /// [`crate::optics::Grazing`]): waves near grazing incidence for one size parameter.
+    pub fn with_curved_interface(mut self, size_parameter: f64) -> Self {
+        self.interface.curved = Some(size_parameter);
+        self
     }
 
     /// The shape traced.
@@ -59,6 +69,34 @@ impl<'a> Tracer<'a> {
         self.last_order
     }
 
+    /// Trace the ray launched at `(u, v)` up to one order, and visit only that order's exit.
+    pub fn trace_order<T: Scalar>(
+        &self,
+        u: T,
+        v: T,
+        order: u32,
+        visit: impl FnOnce(Exit<T>),
+    ) -> Option<()> {
+        let mut ray = self.launch(u, v)?;
+        let mut tangent = self.shape.tangent(ray.position);
+        let event = Event::new(&mut ray, &tangent, &self.interface);
+        if order == 0 {
+            visit(leave(0, event.reflect(&ray)));
+            return Some(());
+        }
+        let mut inside = event.refract(&ray, 1.0 / self.index.re)?;
+        for _ in 1..order {
+            self.cross(&mut inside, &tangent);
+            tangent = self.shape.tangent(inside.position);
+            inside = Event::new(&mut inside, &tangent, &self.interface).reflect(&inside);
+        }
+        self.cross(&mut inside, &tangent);
+        tangent = self.shape.tangent(inside.position);
+        let event = Event::new(&mut inside, &tangent, &self.interface);
+        visit(leave(order, event.refract(&inside, self.index.re)?));
+        Some(())
+    }
+
     /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
     /// `None` when the ray misses the particle.
     pub fn trace<T: Scalar>(
@@ -69,7 +107,7 @@ impl<'a> Tracer<'a> {
     ) -> Option<Remainder> {
         let mut ray = self.launch(u, v)?;
         let mut tangent = self.shape.tangent(ray.position);
-        let event = Event::new(&mut ray, &tangent, self.index);
+        let event = Event::new(&mut ray, &tangent, &self.interface);
         visit(leave(0, event.reflect(&ray)));
         let mut remainder = Remainder::default();
         let inside = event.refract(&ray, 1.0 / self.index.re);
@@ -81,7 +119,7 @@ impl<'a> Tracer<'a> {
         for order in 1..=self.last_order {
             remainder.absorbed += self.cross(&mut inside, &tangent);
             tangent = self.shape.tangent(inside.position);
-            let event = Event::new(&mut inside, &tangent, self.index.inv());
+            let event = Event::new(&mut inside, &tangent, &self.interface);
             let outside = event.refract(&inside, self.index.re);
             totally_reflected = outside.is_none();
             if let Some(outside) = outside {

@@ -7,9 +7,49 @@
 use super::ray::Ray;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{Field, Vec3};
-use crate::optics::{Fresnel, fresnel};
+use crate::optics::{Fresnel, Grazing, curved_from_inside, curved_from_outside, fresnel};
 use crate::shape::Tangent;
 use num_complex::Complex64;
+
+/// The interface between a particle of complex index and the vacuum outside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interface {
+    pub index: Complex64,
+    /// Size parameter for the curvature of the surface near grazing; `None`: Fresnel's flat one.
+    pub curved: Option<f64>,
+}
+
+impl Interface {
+    /// Coefficients for a ray that meets the surface from outside (`entering`) or inside.
+    fn coefficients<T: Scalar>(
+        &self,
+        direction: Vec3<T>,
+        cos: T,
+        tangent: &Tangent<T>,
+        entering: bool,
+    ) -> Fresnel {
+        let m = self.index;
+        let relative = if entering { m } else { m.inv() };
+        let Some(size_parameter) = self.curved else {
+            return fresnel(cos, relative);
+        };
+        let square = cos * cos;
+        let outside = if entering { square } else { -(((-square + 1.0) * (m.re * m.re)) - 1.0) };
+        if outside.re() > FAR_FROM_GRAZING {
+            return fresnel(cos, relative);
+        }
+        let curvature = size_parameter * tangent.radius_along(direction);
+        let grazing = Grazing::new(outside, curvature);
+        if entering {
+            curved_from_outside(cos, m, &grazing)
+        } else {
+            curved_from_inside(cos, m, &grazing)
+        }
+    }
+}
+
+/// Squared cosine beyond which curvature never matters for size parameters that rays serve.
+const FAR_FROM_GRAZING: f64 = 0.6;
 
 /// Geometry of an event: normal turned against the ray, cosines, relative index.
 pub(super) struct Event<T> {
@@ -26,7 +66,7 @@ impl<T: Scalar> Event<T> {
     /// Bring a ray's differentials onto the surface and set up the event.
     ///
     /// `ray.position` is the surface point; `ray.dx` are displacements at that same length of path.
-    pub(super) fn new(ray: &mut Ray<T>, tangent: &Tangent<T>, relative_index: Complex64) -> Self {
+    pub(super) fn new(ray: &mut Ray<T>, tangent: &Tangent<T>, interface: &Interface) -> Self {
         let s = ray.direction;
         let outward = tangent.normal;
         let entering = s.dot(outward).re() < 0.0;
@@ -48,7 +88,7 @@ impl<T: Scalar> Event<T> {
             normal_turn,
             cos_incidence,
             cos_turn,
-            coefficients: fresnel(cos_incidence, relative_index),
+            coefficients: interface.coefficients(s, cos_incidence, tangent, entering),
             perpendicular,
             parallel_in: perpendicular.cross(s),
         }

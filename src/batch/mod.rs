@@ -1,0 +1,89 @@
+//! Batches: one table per point of a sweep, on one machine or many.
+//!
+//! A sweep file is a scene file in which any value under `[particle]`, the sun's elevation under
+//! `[light]` or any value under `[model]` may be a list or a range. [`BatchPlan`] turns it into one
+//! line per table; each line is all that a machine needs to compute that table ([`shard`]), and its
+//! id is a hash of the physics and of the file format, so that equal work has equal names. Shards
+//! are complete files or none, which makes resuming the same as running again; [`merge`] puts them
+//! into one file in the order of the plan, whatever the order in which they were computed.
+
+mod merge;
+mod plan;
+mod run;
+mod shard;
+mod sweep;
+
+pub use merge::merge;
+pub use plan::{BatchPlan, PlannedTable};
+pub use run::{Event, run};
+pub use shard::{Outcome, Shard, ShardStatus, compute};
+pub use sweep::{Axis, Sweep};
+
+use crate::hdf5::TableError;
+use crate::scene::SceneError;
+use crate::simulate::SimulateError;
+use std::path::PathBuf;
+
+/// What went wrong with a batch.
+#[derive(Debug, thiserror::Error)]
+pub enum BatchError {
+    #[error("{}: {message}", path.display())]
+    Plan { path: PathBuf, message: String },
+    #[error("{field} = {value}: {accepted}")]
+    Invalid { field: String, value: String, accepted: String },
+    #[error(
+        "{} of {total} tables are not computed yet (first missing: {first}); run the batch again, or merge with --allow-missing",
+        missing
+    )]
+    Missing { missing: usize, total: usize, first: String },
+    #[error("{id}: not a finite number in the phase function at {wavelength_nm} nm")]
+    Numerical { id: String, wavelength_nm: f64 },
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
+    #[error(transparent)]
+    Table(#[from] TableError),
+    #[error("{}: {source}", path.display())]
+    Io { path: PathBuf, source: std::io::Error },
+}
+
+impl BatchError {
+    /// Exit code for drivers: 2 wrong input, 4 input or output failed, 5 numerical failure (do not
+    /// retry), 75 temporary (retry).
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            BatchError::Plan { .. } | BatchError::Invalid { .. } | BatchError::Scene(_) => 2,
+            BatchError::Missing { .. } => 1,
+            BatchError::Numerical { .. } => 5,
+            BatchError::Simulate(SimulateError::Energy { .. }) => 5,
+            BatchError::Simulate(_) => 2,
+            BatchError::Table(TableError::NoSpace { .. }) => 75,
+            BatchError::Table(TableError::Write { message, .. })
+                if message.contains("No space left") || message.contains("quota") =>
+            {
+                75
+            }
+            BatchError::Table(error) if error.is_wrong_input() => 2,
+            BatchError::Table(TableError::Io { source, .. }) | BatchError::Io { source, .. }
+                if is_temporary(source) =>
+            {
+                75
+            }
+            BatchError::Table(_) | BatchError::Io { .. } => 4,
+        }
+    }
+}
+
+fn is_temporary(error: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{
+        Interrupted, QuotaExceeded, StaleNetworkFileHandle, StorageFull, TimedOut, WouldBlock,
+    };
+    let kinds =
+        [Interrupted, QuotaExceeded, StaleNetworkFileHandle, StorageFull, TimedOut, WouldBlock];
+    kinds.contains(&error.kind())
+}
+
+fn invalid(field: &str, value: impl ToString, accepted: &str) -> BatchError {
+    BatchError::Invalid { field: field.into(), value: value.to_string(), accepted: accepted.into() }
+}

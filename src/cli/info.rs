@@ -1,0 +1,165 @@
+//! `gonio info`: what is in a table.
+
+use super::UsageError;
+use clap::Args;
+use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, human_bytes};
+use gonio::phase_table::{Quantity, TableHeader};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// Describe a table or a merged sweep
+#[derive(Args)]
+#[command(after_help = "Example: gonio info raindrop.h5 --json")]
+pub struct InfoArgs {
+    /// Table or sweep
+    #[arg(value_name = "FILE.h5")]
+    file: PathBuf,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+    /// Print the scene that made the table, as TOML, and nothing else
+    #[arg(long, conflicts_with = "json")]
+    scene: bool,
+}
+
+pub fn run(args: InfoArgs) -> anyhow::Result<()> {
+    let description = match TableReader::open(&args.file) {
+        Ok(reader) if args.scene => {
+            print!("{}", reader.header().scene_toml);
+            return Ok(());
+        }
+        Ok(reader) => describe(&args.file, &reader)?,
+        Err(TableError::Foreign { .. }) if SweepReader::open(&args.file).is_ok() => {
+            describe_sweep(&args.file)?
+        }
+        Err(TableError::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
+            return Err(UsageError(format!("{}: no such file", args.file.display())).into());
+        }
+        Err(error) => return Err(error.into()),
+    };
+    if args.json {
+        println!("{}", serde_json::to_string(&description)?);
+    } else {
+        print_object(&description, 0);
+    }
+    Ok(())
+}
+
+fn common(path: &Path, header: &TableHeader) -> Value {
+    let degrees = |angles: &[f64]| {
+        let end = |angle: Option<&f64>| angle.map(|angle| tidy(angle.to_degrees()));
+        json!({ "count": angles.len(), "from": end(angles.first()), "to": end(angles.last()) })
+    };
+    let nanometres: Vec<f64> = header.axes.wavelength.iter().map(|w| tidy(w * 1e9)).collect();
+    json!({
+        "file": path.display().to_string(),
+        "bytes": std::fs::metadata(path).map_or(0, |data| data.len()),
+        "quantity": match header.quantity {
+            Quantity::PhaseFunction => "phase_function",
+            Quantity::Mueller => "mueller",
+        },
+        "method": header.method,
+        "shape": header.shape,
+        "radius_um": number(header.radius * 1e6),
+        "sun_elevation_deg": number(header.sun_elevation.to_degrees()),
+        "rotational_symmetry": header.rotational_symmetry,
+        "forward_peak": format!("{:?}", header.forward_peak),
+        "wavelength_nm": nanometres,
+        "theta_deg": degrees(&header.axes.theta),
+        "azimuth_deg": degrees(&header.axes.phi),
+    })
+}
+
+fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
+    let header = reader.header();
+    let mut description = common(path, header);
+    let mut slabs = Vec::new();
+    for index in 0..header.axes.wavelength.len() {
+        let slab = reader.slab(index)?;
+        let face = slab.values.index_axis(ndarray::Axis(0), 0);
+        let most = face.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let least = face.iter().copied().fold(f32::INFINITY, f32::min);
+        slabs.push(json!({
+            "wavelength_nm": tidy(slab.wavelength * 1e9),
+            "index": [slab.index.re, slab.index.im],
+            "scattering_cross_section_m2": slab.scattering_cross_section,
+            "extinction_cross_section_m2": slab.extinction_cross_section,
+            "asymmetry": slab.asymmetry,
+            "sum": slab.sum(&header.axes),
+            "sum_before_peak": slab.sum_before_peak,
+            "smallest_per_sr": least,
+            "largest_per_sr": most,
+            "error_estimate": number(slab.error_estimate),
+            "samples_beyond_two_rays": slab
+                .caustic_order
+                .as_ref()
+                .map(|mask| mask.iter().filter(|order| **order > 0).count()),
+            "energy": slab.energy.map(|energy| json!({
+                "left_by_order": energy.left_by_order,
+                "absorbed": energy.absorbed,
+                "totally_reflected": energy.totally_reflected,
+                "truncated": energy.truncated,
+                "residual": energy.residual,
+            })),
+        }));
+    }
+    description["wavelengths"] = Value::Array(slabs);
+    for name in ["program_version", "git_hash", "date_created", "command_line", "license"] {
+        description[name] = json!(reader.attribute(name)?);
+    }
+    description["bit_round"] = json!(reader.bit_round()?);
+    Ok(description)
+}
+
+fn describe_sweep(path: &Path) -> anyhow::Result<Value> {
+    let reader = SweepReader::open(path)?;
+    let mut description = common(path, reader.header());
+    let axes = reader.axes().iter().flat_map(|axis| &axis.coordinates);
+    let axes = axes.map(|coordinate| match &coordinate.values {
+        AxisValues::Numbers(values) => {
+            json!({ "name": coordinate.name, "units": coordinate.units, "values": values })
+        }
+        AxisValues::Texts(values) => json!({ "name": coordinate.name, "values": values }),
+    });
+    description["sweep"] = Value::Array(axes.collect());
+    let present = reader.present()?;
+    description["tables"] = json!(present.len());
+    description["tables_present"] = json!(present.iter().filter(|present| **present).count());
+    Ok(description)
+}
+
+/// A number that JSON can hold.
+fn number(value: f64) -> Value {
+    if value.is_finite() { json!(tidy(value)) } else { Value::Null }
+}
+
+fn tidy(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+/// `key: value` lines for people; lists of objects as blocks.
+fn print_object(object: &Value, indent: usize) {
+    let Value::Object(entries) = object else { return };
+    let space = " ".repeat(indent);
+    for (key, value) in entries {
+        match value {
+            Value::Null => {}
+            Value::Array(items) if items.iter().any(Value::is_object) => {
+                println!("{space}{key}:");
+                for item in items {
+                    println!("{space}  -");
+                    print_object(item, indent + 4);
+                }
+            }
+            Value::Object(_) => {
+                println!("{space}{key}:");
+                print_object(value, indent + 2);
+            }
+            Value::String(text) => println!("{space}{key}: {text}"),
+            Value::Number(bytes) if key == "bytes" => {
+                println!("{space}size: {}", human_bytes(bytes.as_u64().unwrap_or(0)));
+            }
+            other => println!("{space}{key}: {other}"),
+        }
+    }
+}

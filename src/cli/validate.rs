@@ -1,0 +1,78 @@
+//! `gonio validate`: check a table or a scene.
+
+use super::UsageError;
+use clap::Args;
+use gonio::hdf5::{SweepReader, TableError, TableReader};
+use gonio::scene::{Scene, SceneFile};
+use std::path::{Path, PathBuf};
+
+/// Check a table, a merged sweep or a scene file
+#[derive(Args)]
+#[command(after_help = "Example: gonio validate raindrop.h5
+
+A table: whole, finite, normalised, S11 >= |Sij|. A scene: every key and value.")]
+pub struct ValidateArgs {
+    /// Table (.h5) or scene (.toml)
+    file: PathBuf,
+}
+
+pub fn run(args: ValidateArgs) -> anyhow::Result<()> {
+    let path = &args.file;
+    if !path.exists() {
+        return Err(UsageError(format!("{}: no such file", path.display())).into());
+    }
+    if path.extension().is_some_and(|extension| extension == "toml") {
+        let scene = Scene::load(path, &SceneFile::default())?;
+        gonio::plan::Plan::new(&scene)?;
+        println!("{}: a valid scene", path.display());
+        return Ok(());
+    }
+    let tables = match TableReader::open(path) {
+        Ok(reader) => {
+            check_table(&reader)?;
+            1
+        }
+        Err(TableError::Foreign { .. }) if SweepReader::open(path).is_ok() => check_sweep(path)?,
+        Err(error) => return Err(error.into()),
+    };
+    match tables {
+        1 => println!("{}: a valid table", path.display()),
+        count => println!("{}: a valid sweep of {count} tables", path.display()),
+    }
+    Ok(())
+}
+
+fn check_table(reader: &TableReader) -> anyhow::Result<()> {
+    let header = reader.header();
+    let rounding = reader.bit_round()?.map_or(0.0, |bits| 0.5f64.powi(i32::from(bits)));
+    for index in 0..header.axes.wavelength.len() {
+        reader.slab(index)?.validate(header, rounding)?;
+    }
+    Ok(())
+}
+
+fn check_sweep(path: &Path) -> anyhow::Result<usize> {
+    let reader = SweepReader::open(path)?;
+    let lengths: Vec<usize> = reader.axes().iter().map(|axis| axis.len()).collect();
+    let mut checked = 0;
+    for (number, present) in reader.present()?.into_iter().enumerate() {
+        if !present {
+            continue;
+        }
+        let mut rest = number;
+        let mut position: Vec<usize> = lengths
+            .iter()
+            .rev()
+            .map(|length| {
+                let at = rest % length;
+                rest /= length;
+                at
+            })
+            .collect();
+        position.reverse();
+        let table = reader.table(&position)?;
+        table.slabs.iter().try_for_each(|slab| slab.validate(&table.header, 1e-3))?;
+        checked += 1;
+    }
+    Ok(checked)
+}

@@ -1,0 +1,368 @@
+//! Arcs: one meridian of one order, cut into segments with smooth data at knots.
+//!
+//! Between axial ray, folds, axis crossings and rim the exit angle is monotone: a *plain* segment,
+//! one ray per direction. About a fold, a *pair* segment holds both rays in their analytic
+//! combinations, on the lit and on the dark side. Knots sit at the same fractions of a segment on
+//! every meridian, so that all their data vary smoothly with azimuth too.
+
+use super::fold::{Fold, PAIR_CHANNELS};
+use super::meridian::{GRAZING, Meridian, Node};
+use crate::math::chebyshev::Chebyshev;
+use crate::shape::Silhouette;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Numbers at a knot: angle, then
+/// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`;
+/// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element).
+pub const CHANNELS: usize = 21;
+/// First channel of amplitudes in a plain knot (S3 and S4 follow at +4).
+pub const PLAIN_AMPLITUDE: usize = 3;
+/// First channel of g₀ in a pair knot; g₁ follows at +8.
+pub const PAIR_AMPLITUDE: usize = 5;
+
+/// Data at one knot.
+pub type Knot = [f64; CHANNELS];
+
+/// What a segment holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// One ray per direction; focal lines passed; whether it starts at the axial ray.
+    Plain { focal_lines: u32, from_axis: bool },
+    /// Two rays; sum of their focal lines.
+    Pair { focal_lines: u32 },
+}
+
+/// A stretch of an arc.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    pub kind: Kind,
+    /// Angles monotone, ascending or descending.
+    pub knots: Vec<Knot>,
+}
+
+/// Settings shared by all meridians of an order, so that their segments correspond.
+#[derive(Clone, Debug)]
+pub struct ArcLayout {
+    /// Nodes of the first scan.
+    pub scan: usize,
+    /// Angle about later axis crossings that is left out, radians.
+    pub axis_gap: f64,
+    /// Reach of each fold's pair segment on the dark and the lit side, radians.
+    pub folds: Vec<(f64, f64)>,
+    /// Knots per radian of exit angle.
+    pub density: f64,
+    /// Knots of each segment; empty while the layout is being found.
+    pub knots: Vec<usize>,
+}
+
+/// Landmarks along a meridian.
+#[derive(Clone, Debug)]
+enum Landmark {
+    Axial,
+    Fold(Fold),
+    /// Crossing of the axis between two nodes; unwrapped angle of the axis.
+    Axis(f64),
+    /// Last ray that leaves: the rim, or the edge of total reflection.
+    End(Node),
+}
+
+/// A meridian with its landmarks found, ready to be cut into segments.
+pub struct Arc<'a> {
+    meridian: Meridian<'a>,
+    silhouette: &'a Silhouette<'a>,
+    nodes: Vec<Node>,
+    landmarks: Vec<Landmark>,
+}
+
+/// Chebyshev points of a pair segment.
+const PAIR_POINTS: usize = 20;
+/// Ends of plain segments are bisected to this in α.
+const END_TOLERANCE: f64 = 1e-9;
+
+impl<'a> Arc<'a> {
+    /// Scan a meridian. `None` when its rays do not form a chain this method understands.
+    pub fn new(
+        meridian: Meridian<'a>,
+        silhouette: &'a Silhouette<'a>,
+        layout: &ArcLayout,
+    ) -> Option<Self> {
+        let scan = meridian.scan(silhouette, layout.scan, layout.axis_gap);
+        let nodes: Vec<Node> = scan.iter().flatten().copied().collect();
+        if nodes.len() < 8 {
+            return None;
+        }
+        let mut arc = Self { meridian, silhouette, nodes, landmarks: vec![Landmark::Axial] };
+        arc.find_landmarks(FRAC_PI_2 / layout.scan as f64)?;
+        Some(arc)
+    }
+
+    fn find_landmarks(&mut self, step: f64) -> Option<()> {
+        let start = self.meridian.axis_angle();
+        for k in 1..self.nodes.len() {
+            let (a, b) = (self.nodes[k - 1], self.nodes[k]);
+            let half_turn = |n: &Node| ((n.angle - start) / PI).floor();
+            let before = half_turn(&a);
+            let crosses = before != half_turn(&b) && k > 1;
+            if crosses {
+                // the multiple of π between the two angles
+                let axis = start + PI * before.max(half_turn(&b));
+                self.landmarks.push(Landmark::Axis(axis));
+            } else if b.alpha - a.alpha > 1.5 * step {
+                // total reflection: what lies beyond is not followed
+                self.nodes.truncate(k);
+                break;
+            } else if a.exit.spread() * b.exit.spread() < 0.0 {
+                let fold = Fold::between(&self.meridian, self.silhouette, &a, &b)?;
+                self.landmarks.push(Landmark::Fold(fold));
+            }
+        }
+        let last = *self.nodes.last()?;
+        self.landmarks.push(Landmark::End(self.end_after(last)));
+        Some(())
+    }
+
+    /// The last ray that still leaves, beyond a node.
+    fn end_after(&self, last: Node) -> Node {
+        let (mut good, mut bad) = (last, FRAC_PI_2 - GRAZING);
+        if let Some(rim) = self.meridian.node(self.silhouette, bad, last.psi, last.angle) {
+            return rim;
+        }
+        while bad - good.alpha > END_TOLERANCE {
+            let middle = 0.5 * (bad + good.alpha);
+            match self.meridian.node(self.silhouette, middle, good.psi, good.angle) {
+                Some(node) => good = node,
+                None => bad = middle,
+            }
+        }
+        good
+    }
+
+    /// Signature by which meridians correspond.
+    pub fn signature(&self) -> String {
+        let letter = |l: &Landmark| match l {
+            Landmark::Axial => 'A',
+            Landmark::Fold(fold) if fold.lit > 0.0 => 'F',
+            Landmark::Fold(_) => 'f',
+            Landmark::Axis(_) => 'X',
+            Landmark::End(_) => 'E',
+        };
+        self.landmarks.iter().map(letter).collect()
+    }
+
+    /// For each fold: strength `ζ̂/δ`, and the angle available on the lit side of both its rays.
+    pub fn folds(&self, axis_gap: f64) -> Vec<(f64, f64)> {
+        let mut found = Vec::new();
+        for (k, landmark) in self.landmarks.iter().enumerate() {
+            let Landmark::Fold(fold) = landmark else { continue };
+            let room = |other: &Landmark| match other {
+                Landmark::Axial => (fold.angle - self.meridian.axis_angle()).abs(),
+                Landmark::Axis(axis) => (fold.angle - axis).abs() - axis_gap,
+                Landmark::Fold(next) => 0.5 * (fold.angle - next.angle).abs(),
+                Landmark::End(node) => (fold.angle - node.angle).abs(),
+            };
+            let available = room(&self.landmarks[k - 1]).min(room(&self.landmarks[k + 1]));
+            found.push((fold.strength(&self.meridian).unwrap_or(1.0), available));
+        }
+        found
+    }
+
+    /// Cut into segments. `None` where a ray cannot be found.
+    pub fn segments(&self, layout: &ArcLayout) -> Option<Vec<Segment>> {
+        let mut segments = Vec::new();
+        let mut fold_number = 0;
+        let mut plain_count = 0;
+        for pair in self.landmarks.windows(2) {
+            let before_fold = fold_number;
+            if let Landmark::Fold(fold) = &pair[0] {
+                let (dark, reach) = *layout.folds.get(fold_number)?;
+                segments.push(self.pair_segment(fold, dark, reach, layout)?);
+                fold_number += 1;
+            }
+            let edge = |number: usize| layout.folds.get(number).map(|f| f.1);
+            let from = self.edge(&pair[0], edge(before_fold), layout)?;
+            let to = self.edge(&pair[1], edge(fold_number), layout)?;
+            let count = layout.knots.get(plain_count).copied();
+            segments.push(self.plain_segment(&pair[0], from, to, count, layout)?);
+            plain_count += 1;
+        }
+        Some(segments)
+    }
+
+    /// The ray where a plain segment begins or ends at a landmark; towards the neighbour given by
+    /// the reach of its fold or the axis gap.
+    fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &ArcLayout) -> Option<Edge> {
+        Some(match landmark {
+            Landmark::Axial => Edge::Alpha(0.0),
+            Landmark::End(node) => Edge::Alpha(node.alpha),
+            Landmark::Fold(fold) => {
+                Edge::Angle { angle: fold.angle + fold.lit * reach?, near: fold.alpha }
+            }
+            Landmark::Axis(axis) => Edge::Axis { axis: *axis, gap: layout.axis_gap },
+        })
+    }
+
+    fn pair_segment(
+        &self,
+        fold: &Fold,
+        dark: f64,
+        reach: f64,
+        layout: &ArcLayout,
+    ) -> Option<Segment> {
+        let series = fold.sample(&self.meridian, dark, reach, PAIR_POINTS)?;
+        let count = 2 + (1.5 * layout.density * (dark + reach)).ceil() as usize;
+        let knots = (0..=count)
+            .map(|k| pair_knot(fold, &series, -dark + (dark + reach) * k as f64 / count as f64))
+            .collect();
+        Some(Segment { kind: Kind::Pair { focal_lines: fold.focal_lines }, knots })
+    }
+
+    fn plain_segment(
+        &self,
+        start: &Landmark,
+        from: Edge,
+        to: Edge,
+        count: Option<usize>,
+        layout: &ArcLayout,
+    ) -> Option<Segment> {
+        let (a, b) = (self.find(from, true)?, self.find(to, false)?);
+        let length = (b.angle - a.angle).abs();
+        let count = count.unwrap_or(4 + (layout.density * length).ceil() as usize);
+        let ends = matches!(to, Edge::Alpha(_));
+        let mut knots = Vec::with_capacity(count + 1);
+        let mut focal_lines = a.exit.focal_lines;
+        for k in 0..=count {
+            let share = k as f64 / count as f64;
+            // towards the rim or total reflection the exit angle runs like a square root
+            let share = if ends { share * (2.0 - share) } else { share };
+            let node = if k == 0 {
+                a
+            } else if k == count {
+                b
+            } else {
+                self.interpolated(a.alpha + share * (b.alpha - a.alpha))?
+            };
+            if 2 * k == count || 2 * k == count + 1 {
+                focal_lines = node.exit.focal_lines;
+            }
+            knots.push(self.plain_knot(&node));
+        }
+        let from_axis = matches!(start, Landmark::Axial);
+        Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })
+    }
+
+    /// A ray at `α`, its neighbours in the scan giving the guess.
+    fn interpolated(&self, alpha: f64) -> Option<Node> {
+        let nodes = &self.nodes;
+        let k = nodes.partition_point(|n| n.alpha < alpha).clamp(1, nodes.len() - 1);
+        let (a, b) = (&nodes[k - 1], &nodes[k]);
+        let share = (alpha - a.alpha) / (b.alpha - a.alpha);
+        let psi = a.psi + share * (b.psi - a.psi);
+        let angle = a.angle + share * (b.angle - a.angle);
+        self.meridian.node(self.silhouette, alpha, psi, angle)
+    }
+
+    /// The ray at an edge of a plain segment.
+    fn find(&self, edge: Edge, is_start: bool) -> Option<Node> {
+        match edge {
+            Edge::Alpha(alpha) => self.interpolated(alpha),
+            Edge::Angle { angle, near } => self.at_angle(angle, near, is_start),
+            Edge::Axis { axis, gap } => {
+                // beyond the crossing where a segment starts, before it where one ends
+                let k = self.nodes.windows(2).position(|w| {
+                    (w[0].angle - axis) * (w[1].angle - axis) <= 0.0 && w[0].alpha > 0.0
+                })?;
+                let side = if is_start { self.nodes[k + 1] } else { self.nodes[k] };
+                let angle = axis + gap * (side.angle - axis).signum();
+                self.at_angle(angle, side.alpha, is_start)
+            }
+        }
+    }
+
+    /// The ray of a given angle, beyond (`is_start`) or before `α = near`.
+    fn at_angle(&self, angle: f64, near: f64, is_start: bool) -> Option<Node> {
+        let nodes = &self.nodes;
+        let window = |w: &[Node]| (w[0].angle - angle) * (w[1].angle - angle) <= 0.0;
+        let slack = 1.5 * FRAC_PI_2 / nodes.len() as f64;
+        let bracket = if is_start {
+            nodes.windows(2).find(|w| w[1].alpha >= near - slack && window(w) && w[1].alpha > near)
+        } else {
+            nodes
+                .windows(2)
+                .rev()
+                .find(|w| w[0].alpha <= near + slack && window(w) && w[0].alpha < near)
+        };
+        let (mut a, mut b) = match bracket {
+            Some(w) => (w[0], w[1]),
+            // between the last node of the scan and the edge of the gap, extrapolate
+            None => return self.beyond_scan(angle, near),
+        };
+        for _ in 0..40 {
+            let share = ((angle - a.angle) / (b.angle - a.angle)).clamp(0.02, 0.98);
+            let (alpha, psi) =
+                (a.alpha + share * (b.alpha - a.alpha), a.psi + share * (b.psi - a.psi));
+            let node = self.meridian.node(self.silhouette, alpha, psi, angle)?;
+            if (node.angle - angle).abs() < 1e-13 || b.alpha - a.alpha < 1e-14 {
+                return Some(Node { angle, ..node });
+            }
+            if (node.angle - angle) * (a.angle - angle) > 0.0 { a = node } else { b = node }
+        }
+        let node = self.meridian.node(self.silhouette, 0.5 * (a.alpha + b.alpha), a.psi, angle)?;
+        Some(Node { angle, ..node })
+    }
+
+    /// A ray just outside the scanned stretch next to `α = near`, by Newton's method on the angle.
+    fn beyond_scan(&self, angle: f64, near: f64) -> Option<Node> {
+        let nearest = |n: &&Node| (n.alpha - near).abs();
+        let mut node = *self.nodes.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
+        let h = 1e-5;
+        for _ in 0..20 {
+            let ahead =
+                self.meridian.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
+            let rate = (ahead.angle - node.angle) / h;
+            let step = (angle - node.angle) / rate;
+            if !(step.abs() < 0.3) {
+                return None;
+            }
+            node = self.meridian.node(self.silhouette, node.alpha + step, node.psi, angle)?;
+            if (node.angle - angle).abs() < 1e-12 {
+                return Some(Node { angle, ..node });
+            }
+        }
+        None
+    }
+
+    fn plain_knot(&self, node: &Node) -> Knot {
+        let (_, growing) = self.meridian.frame(node.angle);
+        let transfer = self.meridian.transfer(&node.exit, node.angle);
+        let size = 1.0 / node.exit.spread().abs().sqrt();
+        let mut knot = [0.0; CHANNELS];
+        knot[0] = node.angle;
+        knot[1] = node.exit.path;
+        knot[2] = -node.exit.reference.dot(growing);
+        for (k, s) in [transfer.s1, transfer.s2, transfer.s3, transfer.s4].into_iter().enumerate() {
+            knot[PLAIN_AMPLITUDE + 2 * k] = s.re * size;
+            knot[PLAIN_AMPLITUDE + 2 * k + 1] = s.im * size;
+        }
+        knot
+    }
+}
+
+/// Where a plain segment begins or ends.
+#[derive(Clone, Copy, Debug)]
+enum Edge {
+    Alpha(f64),
+    Angle { angle: f64, near: f64 },
+    Axis { axis: f64, gap: f64 },
+}
+
+fn pair_knot(fold: &Fold, series: &Chebyshev<PAIR_CHANNELS>, delta: f64) -> Knot {
+    let (value, slope) = series.at(delta);
+    let mut knot = [0.0; CHANNELS];
+    knot[0] = fold.angle + fold.lit * delta;
+    knot[1] = value[0];
+    knot[2] = fold.lit * slope[0];
+    knot[3] = value[1];
+    knot[4] = fold.lit * slope[1];
+    knot[PAIR_AMPLITUDE..].copy_from_slice(&value[2..]);
+    knot
+}

@@ -1,0 +1,318 @@
+//! The fan: meridians of all orders, and columns at any azimuth.
+//!
+//! Meridians are traced at a few azimuths of one half-turn; the mirror plane gives the others. Where
+//! all meridians of an order have the same landmarks, their segments vary smoothly with azimuth and
+//! any column is interpolated from eight neighbours. When few columns are asked for, their own
+//! meridians are traced instead. Orders whose meridians do not correspond (more than two rays
+//! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
+
+use super::arc::{Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment};
+use super::meridian::{Meridian, axial_ray};
+use super::sweep::{Side, Sums, add_segment};
+use crate::optics::AmplitudeMatrix;
+use crate::trace::Tracer;
+use num_complex::Complex64;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// All meridians of one wavelength.
+pub struct Fan {
+    size_parameter: f64,
+    orders: Vec<OrderFan>,
+    /// Orders that this method does not represent.
+    pub irregular: Vec<u32>,
+}
+
+/// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
+struct OrderFan {
+    order: u32,
+    meridians: Vec<Vec<Segment>>,
+    axis_gap: f64,
+    azimuths: Azimuths,
+}
+
+/// Where the meridians stand.
+#[derive(Clone, Debug)]
+enum Azimuths {
+    /// One serves all: nothing depends on azimuth.
+    Any,
+    /// Even steps over a half-turn, both ends in.
+    Even,
+    /// Exactly these, in [0, π], ascending.
+    Listed(Vec<f64>),
+}
+
+/// What a fan is made with.
+#[derive(Clone, Debug)]
+pub struct FanSettings<'a> {
+    pub size_parameter: f64,
+    pub orders: &'a [u32],
+    pub tolerance: f64,
+    /// Azimuths that will be asked for (radians); few of them are traced directly.
+    pub azimuths: &'a [f64],
+}
+
+/// Azimuth steps per half-turn, before refinement by the tolerance.
+const HALF_TURN_STEPS: usize = 40;
+/// Neighbours in the interpolation over azimuth.
+const STENCIL: usize = 8;
+/// Largest argument of the Airy functions on the lit side: there the two rays are well apart.
+const LIT_ZETA: f64 = 24.0;
+/// Argument on the dark side at which the field has died away.
+const DARK_ZETA: f64 = 7.5;
+/// Longest reach of a pair segment, radians: beyond, its Chebyshev series would need more points.
+const LONGEST_REACH: f64 = 0.3;
+const LONGEST_DARK: f64 = 0.45;
+/// Gaps tried about crossings of the axis, radians.
+const AXIS_GAPS: [f64; 4] = [0.02, 0.06, 0.14, 0.3];
+
+impl Fan {
+    /// Trace all meridians.
+    pub fn new(tracer: &Tracer, settings: &FanSettings) -> Self {
+        let fans: Vec<(u32, Option<OrderFan>)> = settings
+            .orders
+            .par_iter()
+            .map(|&order| (order, OrderFan::new(tracer, order, settings)))
+            .collect();
+        let irregular = fans.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
+        let orders = fans.into_iter().filter_map(|f| f.1).collect();
+        Self { size_parameter: settings.size_parameter, orders, irregular }
+    }
+
+    /// Amplitudes at samples θ (ascending) of one azimuth in [0, π], without forward diffraction.
+    pub fn column(&self, theta: &[f64], azimuth: f64) -> Vec<AmplitudeMatrix> {
+        let mut sums = Sums::new(theta.len());
+        for fan in &self.orders {
+            for segment in fan.segments(azimuth, false) {
+                add_segment(&mut sums, theta, &segment, Side::Near, self.size_parameter);
+            }
+            // the plane of φ + π is the mirror image of that of π - φ
+            for segment in fan.segments(PI - azimuth, true) {
+                add_segment(&mut sums, theta, &segment, Side::Far, self.size_parameter);
+            }
+        }
+        let at =
+            |k: usize, i: usize| Complex64::new(sums.parts[2 * k][i], sums.parts[2 * k + 1][i]);
+        (0..theta.len())
+            .map(|i| AmplitudeMatrix { s1: at(0, i), s2: at(1, i), s3: at(2, i), s4: at(3, i) })
+            .collect()
+    }
+
+    /// How many rays more than two may coalesce near each sample: 3 within an axis gap, else 0.
+    pub fn caustic_order(&self, theta: &[f64]) -> Vec<u8> {
+        let gap = |axis: f64| {
+            let meets = |f: &&OrderFan| f.crosses(axis);
+            self.orders.iter().filter(meets).map(|f| f.axis_gap).fold(0.0, f64::max)
+        };
+        let (forward, backward) = (gap(0.0), gap(PI));
+        let marked = |t: f64| t < forward || PI - t < backward || !self.irregular.is_empty();
+        theta.iter().map(|&t| if marked(t) { 3 } else { 0 }).collect()
+    }
+}
+
+impl OrderFan {
+    fn new(tracer: &Tracer, order: u32, settings: &FanSettings) -> Option<Self> {
+        let centre = axial_ray(tracer, order);
+        let azimuths = azimuths(tracer, settings);
+        let places = azimuths.places(settings);
+        let density = 60.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
+        AXIS_GAPS.iter().find_map(|&axis_gap| {
+            let layout = ArcLayout {
+                scan: 64 + 16 * order as usize,
+                axis_gap,
+                folds: Vec::new(),
+                density,
+                knots: Vec::new(),
+            };
+            let meridians = trace(tracer, order, centre, &places, layout, settings.size_parameter)?;
+            Some(Self { order, meridians, axis_gap, azimuths: azimuths.clone() })
+        })
+    }
+
+    /// Whether the order has an axis gap about θ = 0 or π.
+    fn crosses(&self, axis: f64) -> bool {
+        let near = |knot: &Knot| {
+            let theta = (knot[0].rem_euclid(2.0 * PI) - axis).abs();
+            let theta = theta.min(2.0 * PI - theta);
+            (theta - self.axis_gap).abs() < 1e-6
+        };
+        let ends =
+            |s: &Segment| s.knots.first().is_some_and(near) || s.knots.last().is_some_and(near);
+        self.meridians.first().is_some_and(|m| m.iter().any(ends))
+    }
+
+    /// Segments at an azimuth in [0, π]; `mirrored` for the image across the vertical plane.
+    fn segments(&self, azimuth: f64, mirrored: bool) -> Vec<Segment> {
+        let mut segments = match &self.azimuths {
+            Azimuths::Any => self.meridians[0].clone(),
+            Azimuths::Listed(list) => {
+                let k = list.partition_point(|&a| a < azimuth - 1e-9).min(list.len() - 1);
+                self.meridians[k].clone()
+            }
+            Azimuths::Even => self.interpolated(azimuth),
+        };
+        if mirrored {
+            segments.iter_mut().for_each(mirror);
+        }
+        segments
+    }
+
+    /// Segments between the traced azimuths, by a polynomial through eight of them.
+    fn interpolated(&self, azimuth: f64) -> Vec<Segment> {
+        let steps = (self.meridians.len() - 1) as f64;
+        let place = azimuth / PI * steps;
+        let first = place.floor() as i64 - (STENCIL as i64 / 2 - 1);
+        let weights = lagrange_weights(place - first as f64);
+        let template = &self.meridians[0];
+        (0..template.len())
+            .map(|s| {
+                let kind = template[s].kind;
+                let mut knots = vec![[0.0; CHANNELS]; template[s].knots.len()];
+                for (k, weight) in weights.iter().enumerate() {
+                    let (source, mirrored) = fold_index(first + k as i64, self.meridians.len());
+                    let odd = if mirrored { -weight } else { *weight };
+                    let is_odd = odd_channels(&kind);
+                    for (to, from) in knots.iter_mut().zip(&self.meridians[source][s].knots) {
+                        for c in 0..CHANNELS {
+                            let w = if is_odd(c) { odd } else { *weight };
+                            to[c] += w * from[c];
+                        }
+                    }
+                }
+                Segment { kind, knots }
+            })
+            .collect()
+    }
+}
+
+/// Index of the meridian at step `k`, whether it is a mirror image.
+fn fold_index(k: i64, count: usize) -> (usize, bool) {
+    let last = count as i64 - 1;
+    let turned = k.rem_euclid(2 * last);
+    if turned > last { ((2 * last - turned) as usize, true) } else { (turned as usize, false) }
+}
+
+/// Channels of S3 and S4, which change sign in the mirror.
+fn odd_channels(kind: &Kind) -> fn(usize) -> bool {
+    match kind {
+        Kind::Plain { .. } => |c| (PLAIN_AMPLITUDE + 4..PLAIN_AMPLITUDE + 8).contains(&c),
+        Kind::Pair { .. } => |c| {
+            (PAIR_AMPLITUDE + 4..PAIR_AMPLITUDE + 8).contains(&c)
+                || (PAIR_AMPLITUDE + 12..PAIR_AMPLITUDE + 16).contains(&c)
+        },
+    }
+}
+
+fn mirror(segment: &mut Segment) {
+    let odd = odd_channels(&segment.kind);
+    for knot in &mut segment.knots {
+        for (c, value) in knot.iter_mut().enumerate() {
+            if odd(c) {
+                *value = -*value;
+            }
+        }
+    }
+}
+
+/// Weights of the polynomial through 0 … STENCIL-1 at `x`.
+fn lagrange_weights(x: f64) -> [f64; STENCIL] {
+    std::array::from_fn(|i| {
+        let factor = |j: usize| (x - j as f64) / (i as f64 - j as f64);
+        (0..STENCIL).filter(|&j| j != i).map(factor).product()
+    })
+}
+
+fn azimuths(tracer: &Tracer, settings: &FanSettings) -> Azimuths {
+    if tracer.shape().rotational_symmetry() {
+        return Azimuths::Any;
+    }
+    // each column needs its own meridian and that of the opposite side
+    let mut list: Vec<f64> = settings.azimuths.iter().flat_map(|&a| [a, PI - a]).collect();
+    list.sort_by(f64::total_cmp);
+    list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    if list.len() <= HALF_TURN_STEPS { Azimuths::Listed(list) } else { Azimuths::Even }
+}
+
+impl Azimuths {
+    fn places(&self, settings: &FanSettings) -> Vec<f64> {
+        match self {
+            Azimuths::Any => vec![0.0],
+            Azimuths::Listed(list) => list.clone(),
+            Azimuths::Even => {
+                let finer = (0.01 / settings.tolerance).powf(0.125).clamp(0.8, 2.0);
+                let steps = (HALF_TURN_STEPS as f64 * finer).ceil() as usize;
+                (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()
+            }
+        }
+    }
+}
+
+/// Trace the meridians of an order and cut them into corresponding segments.
+fn trace(
+    tracer: &Tracer,
+    order: u32,
+    centre: [f64; 2],
+    places: &[f64],
+    mut layout: ArcLayout,
+    size_parameter: f64,
+) -> Option<Vec<Vec<Segment>>> {
+    let silhouette = tracer.shape().silhouette();
+    let arcs: Vec<Arc> = places
+        .iter()
+        .map(|&phi| Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, &layout))
+        .collect::<Option<_>>()?;
+    let signature = arcs.first()?.signature();
+    if arcs.iter().any(|arc| arc.signature() != signature) {
+        return None;
+    }
+    layout.folds = fold_reaches(&arcs, layout.axis_gap, size_parameter);
+    for _ in 0..SHRINKS {
+        if let Some(found) = cut(&arcs, &layout) {
+            return Some(found);
+        }
+        layout.folds.iter_mut().for_each(|(dark, reach)| {
+            *dark *= 0.7;
+            *reach *= 0.95;
+        });
+    }
+    None
+}
+
+/// How often the reach of pair segments is shortened when a complex ray cannot be found.
+const SHRINKS: usize = 8;
+
+/// Reach on the dark and lit side of each fold, common to all meridians.
+fn fold_reaches(arcs: &[Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {
+    let measured: Vec<Vec<(f64, f64)>> = arcs.iter().map(|arc| arc.folds(axis_gap)).collect();
+    let count = measured.first().map_or(0, Vec::len);
+    let unit = size_parameter.powf(-2.0 / 3.0);
+    (0..count)
+        .map(|f| {
+            let weakest = measured.iter().map(|m| m[f].0).fold(f64::MAX, f64::min);
+            let room = measured.iter().map(|m| m[f].1).fold(f64::MAX, f64::min);
+            let dark = (DARK_ZETA * unit / weakest).min(LONGEST_DARK);
+            let reach = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
+            (dark, reach)
+        })
+        .collect()
+}
+
+/// All segments of all meridians, with common numbers of knots.
+fn cut(arcs: &[Arc], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
+    let first: Vec<Vec<Segment>> =
+        arcs.par_iter().map(|arc| arc.segments(layout)).collect::<Option<_>>()?;
+    let longest = |s: usize| first.iter().map(|m| m[s].knots.len()).max().unwrap_or(0);
+    let plain = |s: &&usize| matches!(first[0][**s].kind, Kind::Plain { .. });
+    let numbers: Vec<usize> = (0..first.first()?.len()).collect();
+    let knots: Vec<usize> = numbers.iter().filter(plain).map(|&s| longest(s) - 1).collect();
+    let same = |m: &Vec<Segment>| m.iter().enumerate().all(|(s, x)| x.knots.len() == longest(s));
+    let same_kind = |m: &Vec<Segment>| m.iter().zip(&first[0]).all(|(a, b)| a.kind == b.kind);
+    if !first.iter().all(same_kind) {
+        return None;
+    }
+    if first.iter().all(same) {
+        return Some(first);
+    }
+    let layout = ArcLayout { knots, ..layout.clone() };
+    arcs.par_iter().map(|arc| arc.segments(&layout)).collect()
+}

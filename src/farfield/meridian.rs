@@ -1,0 +1,241 @@
+//! Meridians: the rays of one order that leave in one plane through the light's axis.
+//!
+//! For an azimuth `φ₀` all rays of an order whose direction lies in the plane of `φ₀` form a curve on
+//! the emitting plane, from the axial ray to the rim. Along it the exit direction has only one
+//! coordinate left, the unwrapped angle `ϑ` (scattering angle θ = ϑ on the side of `φ₀`, θ = -ϑ on
+//! the far side, both modulo 2π), which turns back at every fold caustic. So the two-dimensional
+//! problem of sheets and caustics becomes one of branches of a function of one variable, for any
+//! smooth drop.
+
+use super::direction::Direction;
+use crate::math::scalar::Scalar;
+use crate::math::vec3::Vec3;
+use crate::optics::AmplitudeMatrix;
+use crate::shape::Silhouette;
+use crate::trace::{Exit, Tracer, transfer};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// The rays of one order in one plane.
+pub struct Meridian<'a> {
+    pub tracer: &'a Tracer<'a>,
+    pub order: u32,
+    /// Azimuth of the plane.
+    pub azimuth: f64,
+    /// Launch point of the axial ray.
+    centre: [f64; 2],
+    along: Vec3<f64>,
+    across: Vec3<f64>,
+    rotational: bool,
+}
+
+/// One ray of a meridian.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// Launch coordinate: `sin α` of the way from the axial ray to the rim.
+    pub alpha: f64,
+    pub psi: f64,
+    /// Launch point.
+    pub place: [f64; 2],
+    /// Unwrapped exit angle.
+    pub angle: f64,
+    pub exit: Exit<f64>,
+}
+
+/// Newton steps allowed; convergence is quadratic.
+const STEPS: usize = 12;
+/// Closest approach of a launch to the rim, in α.
+pub const GRAZING: f64 = 1e-4;
+/// Largest turn of the launch azimuth between neighbouring nodes.
+const LARGEST_TURN: f64 = 0.25;
+
+impl<'a> Meridian<'a> {
+    /// Prepare the meridian of an azimuth; `centre` is the launch point of the order's axial ray.
+    pub fn new(tracer: &'a Tracer<'a>, order: u32, azimuth: f64, centre: [f64; 2]) -> Self {
+        let (sin, cos) = azimuth.sin_cos();
+        Self {
+            tracer,
+            order,
+            azimuth,
+            centre,
+            along: Vec3 { x: cos, y: sin, z: 0.0 },
+            across: Vec3 { x: -sin, y: cos, z: 0.0 },
+            rotational: tracer.shape().rotational_symmetry(),
+        }
+    }
+
+    /// The exit of this order for a launch point, if it leaves.
+    pub fn exit<T: Scalar>(&self, place: [T; 2]) -> Option<Exit<T>> {
+        let mut found = None;
+        self.tracer.trace_order(place[0], place[1], self.order, |exit| found = Some(exit))?;
+        found
+    }
+
+    /// Unit vector in the plane at an unwrapped angle, and the vector of growing angle.
+    pub fn frame(&self, angle: f64) -> (Vec3<f64>, Vec3<f64>) {
+        let (sin, cos) = angle.sin_cos();
+        let axis = Vec3 { x: 0.0, y: 0.0, z: 1.0 };
+        (self.along * sin + axis * cos, self.along * cos - axis * sin)
+    }
+
+    /// Unit normal of the plane.
+    pub fn across(&self) -> Vec3<f64> {
+        self.across
+    }
+
+    /// Transfer of a field in the frames of an unwrapped angle in this plane.
+    pub fn transfer<T: Scalar>(&self, exit: &Exit<T>, angle: f64) -> AmplitudeMatrix {
+        let (_, growing) = self.frame(angle);
+        transfer(
+            &exit.field,
+            Vec3::real(growing),
+            Vec3::real(self.across),
+            T::real(self.along.x),
+            T::real(self.along.y),
+        )
+    }
+
+    /// Launch point at `(α, ψ)`, and its derivatives with respect to ψ.
+    fn place(&self, silhouette: &Silhouette, alpha: f64, psi: f64) -> ([f64; 2], [f64; 2]) {
+        let (rim, slope) = silhouette.radius_and_slope(psi);
+        let ((sin, cos), reach) = (psi.sin_cos(), alpha.sin());
+        let [cu, cv] = self.centre;
+        let place = [cu + reach * (rim * cos - cu), cv + reach * (rim * sin - cv)];
+        (place, [reach * (slope * cos - rim * sin), reach * (slope * sin + rim * cos)])
+    }
+
+    /// The ray at `α` that leaves in the plane, searched from a guess of ψ; its angle is unwrapped
+    /// towards `near`. `None` where there is none nearby (total reflection, an axial caustic).
+    pub fn node(&self, silhouette: &Silhouette, alpha: f64, guess: f64, near: f64) -> Option<Node> {
+        let mut psi = guess;
+        for _ in 0..STEPS {
+            let (place, by_psi) = self.place(silhouette, alpha, psi);
+            let exit = self.exit(place)?;
+            let turn = exit.ds[0] * by_psi[0] + exit.ds[1] * by_psi[1];
+            let (miss, rate) = (exit.direction.dot(self.across), turn.dot(self.across));
+            let step = if self.rotational { 0.0 } else { miss / rate };
+            if !(step.abs() < LARGEST_TURN) {
+                return None;
+            }
+            if step.abs() < 1e-13 || self.rotational || miss.abs() < 1e-15 {
+                return Some(self.finish(alpha, psi, place, exit, near));
+            }
+            psi -= step;
+            if (psi - guess).abs() > LARGEST_TURN {
+                return None;
+            }
+        }
+        None
+    }
+
+    fn finish(&self, alpha: f64, psi: f64, place: [f64; 2], exit: Exit<f64>, near: f64) -> Node {
+        let raw = exit.direction.dot(self.along).atan2(exit.direction.z);
+        let angle = raw + TAU * ((near - raw) / TAU).round();
+        Node { alpha, psi, place, angle, exit }
+    }
+
+    /// Follow the meridian from the axial ray to the rim in even steps of α; gaps are `None`.
+    ///
+    /// Within `axis_gap` of a later crossing of the axis many rays leave in almost one direction and
+    /// the meridian branches; those rays are left out, and the scan goes on beyond.
+    pub fn scan(&self, silhouette: &Silhouette, count: usize, axis_gap: f64) -> Vec<Option<Node>> {
+        let step = (FRAC_PI_2 - GRAZING) / count as f64;
+        let start = self.axis_angle();
+        let mut nodes: Vec<Option<Node>> = Vec::with_capacity(count);
+        let mut previous: Option<Node> = None;
+        let (mut psi, mut angle_rate) = (self.first_azimuth(), 0.0);
+        let mut psi_rate = 0.0;
+        for i in 0..count {
+            let alpha = (i as f64 + 0.5) * step;
+            let ahead = previous.map_or(0.0, |b| alpha - b.alpha);
+            let near = previous.map_or(start, |b| b.angle + angle_rate * ahead);
+            let crossing = ((near - start) / PI).round();
+            let from_axis = (near - start - crossing * PI).abs();
+            if crossing != 0.0 && from_axis < axis_gap {
+                psi_rate = 0.0;
+                nodes.push(None);
+                continue;
+            }
+            let guess = psi + psi_rate * ahead;
+            let node = self.node(silhouette, alpha, guess, near);
+            if let (Some(node), Some(before)) = (node, previous) {
+                let length = node.alpha - before.alpha;
+                if length < 1.5 * step {
+                    angle_rate = (node.angle - before.angle) / length;
+                    psi_rate = (node.psi - before.psi) / length;
+                } else {
+                    psi_rate = 0.0;
+                }
+            }
+            if let Some(node) = node {
+                psi = node.psi;
+                previous = Some(node);
+            }
+            nodes.push(node);
+        }
+        nodes
+    }
+
+    /// Unwrapped angle of the axial ray: backward for even orders, forward for odd ones.
+    pub fn axis_angle(&self) -> f64 {
+        if self.order % 2 == 1 { 0.0 } else { PI }
+    }
+
+    /// Launch azimuth at the axial ray: where the linear map of directions points along the plane.
+    fn first_azimuth(&self) -> f64 {
+        let Some(exit) = self.exit(self.centre).filter(|_| !self.rotational) else {
+            return self.azimuth;
+        };
+        // s·across = 0 to first order in the launch point
+        let (a, b) = (exit.ds[0].dot(self.across), exit.ds[1].dot(self.across));
+        let psi = (-a).atan2(b);
+        let turn = (self.azimuth - psi) / PI;
+        psi + PI * turn.round()
+    }
+
+    /// Search the launch point whose ray leaves at an unwrapped angle in the plane.
+    pub fn aim<T: Scalar>(&self, angle: f64, guess: [T; 2]) -> Option<([T; 2], Exit<T>)> {
+        let (_, growing) = self.frame(angle);
+        let (growing, across) = (Vec3::<T>::real(growing), Vec3::<T>::real(self.across));
+        let mut place = guess;
+        let mut last_step = f64::INFINITY;
+        for _ in 0..2 * STEPS {
+            let exit = self.exit(place)?;
+            let s = exit.direction;
+            let (r1, r2) = (s.dot(growing), s.dot(across));
+            let (a, b) = (exit.ds[0].dot(growing), exit.ds[1].dot(growing));
+            let (c, d) = (exit.ds[0].dot(across), exit.ds[1].dot(across));
+            let det = a * d - b * c;
+            let step = [(r1 * d - r2 * b) / det, (r2 * a - r1 * c) / det];
+            let size = step[0].size() + step[1].size();
+            if !(size < 0.3) {
+                return None;
+            }
+            if size < 1e-13 || (size < 1e-9 && size > 0.5 * last_step) {
+                return Some((place, exit));
+            }
+            place = [place[0] - step[0], place[1] - step[1]];
+            last_step = size;
+        }
+        None
+    }
+}
+
+/// Launch point of the ray of an order that leaves along the axis, near the centre.
+pub fn axial_ray(tracer: &Tracer, order: u32) -> [f64; 2] {
+    if tracer.shape().rotational_symmetry() {
+        return [0.0, 0.0];
+    }
+    let probe = Meridian::new(tracer, order, 0.0, [0.0, 0.0]);
+    let angle = if order % 2 == 1 { 0.0 } else { PI };
+    probe.aim(angle, [0.0, 0.0]).map_or([0.0, 0.0], |(place, _)| place)
+}
+
+/// The direction of an unwrapped angle in the plane of an azimuth.
+pub fn direction(angle: f64, azimuth: f64) -> Direction {
+    let wrapped = angle.rem_euclid(TAU);
+    if wrapped <= PI {
+        Direction::new(wrapped, azimuth)
+    } else {
+        Direction::new(TAU - wrapped, azimuth + PI)
+    }
+}

@@ -1,0 +1,82 @@
+//! Chebyshev interpolation of smooth functions on an interval, several channels at once.
+
+use std::f64::consts::PI;
+
+/// Points of the first kind on `[from, to]`, ascending.
+pub fn points(count: usize, from: f64, to: f64) -> Vec<f64> {
+    (0..count)
+        .map(|k| {
+            let x = -((k as f64 + 0.5) * PI / count as f64).cos();
+            0.5 * (from + to) + 0.5 * (to - from) * x
+        })
+        .collect()
+}
+
+/// A vector-valued polynomial in Chebyshev form.
+#[derive(Clone, Debug)]
+pub struct Chebyshev<const C: usize> {
+    from: f64,
+    to: f64,
+    coefficients: Vec<[f64; C]>,
+}
+
+impl<const C: usize> Chebyshev<C> {
+    /// Interpolate values given at [`points`].
+    pub fn fit(values: &[[f64; C]], from: f64, to: f64) -> Self {
+        let count = values.len();
+        let coefficients = (0..count)
+            .map(|n| {
+                let mut sum = [0.0; C];
+                for (k, value) in values.iter().enumerate() {
+                    // points ascend, so that x_k = cos(π - (k+½)π/count)
+                    let angle = PI - (k as f64 + 0.5) * PI / count as f64;
+                    let weight = (n as f64 * angle).cos() * if n == 0 { 1.0 } else { 2.0 };
+                    for c in 0..C {
+                        sum[c] += weight * value[c] / count as f64;
+                    }
+                }
+                sum
+            })
+            .collect();
+        Self { from, to, coefficients }
+    }
+
+    /// Values and derivatives at `x`.
+    pub fn at(&self, x: f64) -> ([f64; C], [f64; C]) {
+        let half = 0.5 * (self.to - self.from);
+        let t = (x - 0.5 * (self.from + self.to)) / half;
+        // T_n and U_{n-1} by recurrence; T_n' = n U_{n-1}
+        let (mut t0, mut t1, mut u0, mut u1) = (1.0, t, 0.0, 1.0);
+        let (mut value, mut slope) = ([0.0; C], [0.0; C]);
+        for (n, row) in self.coefficients.iter().enumerate() {
+            for c in 0..C {
+                value[c] += row[c] * t0;
+                slope[c] += row[c] * (n as f64 * u0) / half;
+            }
+            (t0, t1) = (t1, 2.0 * t * t1 - t0);
+            (u0, u1) = (u1, 2.0 * t * u1 - u0);
+        }
+        (value, slope)
+    }
+
+    /// Size of the last coefficients of a channel: the error of interpolation.
+    pub fn tail(&self, channel: usize) -> f64 {
+        let count = self.coefficients.len();
+        self.coefficients[count.saturating_sub(2)..].iter().map(|row| row[channel].abs()).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_analytic_function_is_met_with_its_slope() {
+        let values: Vec<[f64; 1]> = points(24, -1.0, 3.0).iter().map(|x| [x.exp()]).collect();
+        let series = Chebyshev::fit(&values, -1.0, 3.0);
+        for x in [-1.0, 0.3, 2.9] {
+            let ([value], [slope]) = series.at(x);
+            assert!((value - x.exp()).abs() < 1e-13 * 20.0 && (slope - x.exp()).abs() < 1e-11);
+        }
+    }
+}
