@@ -23,6 +23,7 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
+pub mod compare;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 pub mod plan;
@@ -35,6 +36,6 @@ pub mod farfield;
 
 pub mod simulate;
 
-pub mod lee;
 #[cfg(feature = "hdf5")]
 pub mod batch;
+pub mod lee;

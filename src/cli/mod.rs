@@ -2,10 +2,14 @@
 //! output, progress bars and `anyhow`.
 
 mod batch;
+mod compare;
 mod info;
 mod interrupt;
+mod lee;
 mod material;
 mod plot;
+mod render;
+mod render_drops;
 mod scene_flags;
 mod table;
 mod validate;
@@ -49,6 +53,9 @@ enum Command {
     Table(table::TableArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
+    Lee(lee::LeeArgs),
+    Compare(compare::CompareArgs),
+    Render(render::RenderArgs),
     Batch(batch::BatchArgs),
 }
 
@@ -71,6 +78,9 @@ fn run(command: Command) -> anyhow::Result<()> {
         Command::Table(args) => table::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),
+        Command::Lee(args) => lee::run(args),
+        Command::Compare(args) => compare::run(args),
+        Command::Render(args) => render::run(args),
         Command::Batch(args) => batch::run(args),
     }
 }

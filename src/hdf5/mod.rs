@@ -45,6 +45,7 @@
 
 mod body;
 mod chunk;
+mod diagram;
 mod literal;
 mod raw;
 mod raw_read;
@@ -56,6 +57,7 @@ mod sweep;
 mod writer;
 
 pub use crate::pending_file::remove_all_pending as remove_temporaries;
+pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
 pub use reader::{TableReader, read};
 pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
 pub use space::{available_bytes, estimate_bytes};
