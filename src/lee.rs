@@ -94,12 +94,12 @@ const LONGEST_PATH: f64 = 5.5;
 /// Wavelengths per beat that resolve it.
 const PER_BEAT: f64 = 1.5;
 /// Narrow resonances of small drops ask for this many wavelengths at the least.
-const RESONANCES: f64 = 600.0;
+const RESONANCES: f64 = 400.0;
 /// The golden ratio's fraction.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Where the disc has dimmed the ripple so far that wavelengths with spread phases do: their
 /// number at a size parameter; it falls as the disc's transform does. Measured, see `validation/`.
-const SPREAD: (f64, f64) = (800.0, 300.0);
+const SPREAD: (f64, f64) = (800.0, 240.0);
 /// Least number: dispersion shifts the bow by 2° over the visible, 0.06° from one to the next.
 const LEAST: f64 = 32.0;
 
@@ -127,7 +127,7 @@ impl Sampling {
             .iter()
             .map(|w| {
                 let alias_free = TAU / (HIGHEST_FREQUENCY * TAU * radius / w + 3.0 / disc);
-                alias_free.min(0.25 * disc) / fineness
+                alias_free.min(0.35 * disc) / fineness
             })
             .collect();
         Self { wavelengths, wavenumber_width: width, steps }

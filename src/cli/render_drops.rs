@@ -108,7 +108,10 @@ fn sphere(kind: &DropKeys, radius: f64, polarised: bool) -> anyhow::Result<Phase
     let count = ((to - from) / step).ceil() as usize;
     let theta: Vec<f64> =
         (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();
-    let mut wavelength = sampling.wavelengths;
+    // A distribution of sizes averages the ripple that single sizes need wavelengths for.
+    let most = if kind.size_spread.unwrap_or(0.0) > 0.0 { 64 } else { 300 };
+    let stride = sampling.wavelengths.len().div_ceil(most);
+    let mut wavelength: Vec<f64> = sampling.wavelengths.into_iter().step_by(stride).collect();
     wavelength.sort_by(f64::total_cmp);
     let quantity = if polarised { Quantity::Mueller } else { Quantity::PhaseFunction };
     mie_table(&medium, radius, wavelength, theta, quantity)

@@ -92,6 +92,7 @@ impl ColorDiagram<'_> {
         chart
             .configure_mesh()
             .disable_mesh()
+            .x_labels(24)
             .x_desc("drop radius (mm)")
             .y_desc("scattering angle θ (°)")
             .x_label_formatter(&|v| trimmed(*v))
