@@ -23,6 +23,7 @@ pub mod shape;
 pub mod phase_table;
 pub mod scene;
 
+pub mod compare;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 pub mod plan;
@@ -40,3 +41,4 @@ pub mod export;
 
 #[cfg(feature = "hdf5")]
 pub mod batch;
+pub mod lee;

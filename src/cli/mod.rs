@@ -3,10 +3,14 @@
 
 mod batch;
 mod export;
+mod compare;
 mod info;
 mod interrupt;
+mod lee;
 mod material;
 mod plot;
+mod render;
+mod render_drops;
 mod scene_flags;
 mod table;
 mod validate;
@@ -52,6 +56,9 @@ enum Command {
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
     Export(export::ExportArgs),
+    Lee(lee::LeeArgs),
+    Compare(compare::CompareArgs),
+    Render(render::RenderArgs),
     Batch(batch::BatchArgs),
 }
 
@@ -75,6 +82,9 @@ fn run(command: Command) -> anyhow::Result<()> {
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),
         Command::Export(args) => export::run(args),
+        Command::Lee(args) => lee::run(args),
+        Command::Compare(args) => compare::run(args),
+        Command::Render(args) => render::run(args),
         Command::Batch(args) => batch::run(args),
     }
 }

@@ -64,6 +64,26 @@ impl ColorWeights {
         Self { weights }
     }
 
+    /// Weights of a quadrature of one's own: each wavelength (metres) stands for an interval of
+    /// the given width. For spectra with ripple that no 1 nm grid resolves.
+    pub fn quadrature(
+        wavelengths: &[f64],
+        widths: &[f64],
+        illuminant: Illuminant,
+        observer: Observer,
+    ) -> Self {
+        let mut weights: Vec<[f64; 3]> = wavelengths
+            .iter()
+            .zip(widths)
+            .map(|(&w, width)| observer.matching(w).map(|m| m * width * illuminant.power(w)))
+            .collect();
+        let luminance: f64 = weights.iter().map(|w| w[1]).sum();
+        for weight in &mut weights {
+            *weight = weight.map(|w| w / luminance);
+        }
+        Self { weights }
+    }
+
     /// XYZ of one spectrum; `values` in the order of the wavelengths.
     pub fn xyz(&self, values: impl IntoIterator<Item = f64>) -> [f64; 3] {
         let mut xyz = [0.0; 3];

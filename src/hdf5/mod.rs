@@ -45,6 +45,7 @@
 
 mod body;
 mod chunk;
+mod diagram;
 mod literal;
 mod netcdf;
 mod raw;
@@ -58,6 +59,7 @@ mod writer;
 
 pub use crate::pending_file::remove_all_pending as remove_temporaries;
 pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
+pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
 pub use reader::{TableReader, read};
 pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
 pub use space::{available_bytes, estimate_bytes};

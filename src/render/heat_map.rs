@@ -2,38 +2,35 @@
 
 use super::{FONT, RenderError};
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::Ranged;
 use plotters::element::BitMapElement;
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// Fill a chart's plotting area with pixels; `color` gets the pixel's place in the chart's own
-/// coordinates.
+/// Fill a chart's plotting area with pixels; `top_left` is its corner in the chart's coordinates,
+/// `color` gets the place as shares of the width (from the left) and the height (from below).
 ///
 /// # Errors
 /// [`RenderError::Drawing`] from the backend.
-pub fn draw_pixels<'a>(
-    chart: &ChartContext<
-        'a,
-        BitMapBackend<'a>,
-        Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
-    >,
-    x: Range<f64>,
-    y: Range<f64>,
+pub fn draw_pixels<'a, X, Y>(
+    chart: &ChartContext<'a, BitMapBackend<'a>, Cartesian2d<X, Y>>,
+    top_left: (f64, f64),
     mut color: impl FnMut(f64, f64) -> [u8; 3],
-) -> Result<(), RenderError> {
+) -> Result<(), RenderError>
+where
+    X: Ranged<ValueType = f64>,
+    Y: Ranged<ValueType = f64>,
+{
     let (columns, rows) = chart.plotting_area().get_pixel_range();
     let (width, height) = ((columns.end - columns.start) as u32, (rows.end - rows.start) as u32);
     let mut pixels = Vec::with_capacity((3 * width * height) as usize);
     for row in 0..height {
         let up = 1.0 - (f64::from(row) + 0.5) / f64::from(height);
         for column in 0..width {
-            let along = (f64::from(column) + 0.5) / f64::from(width);
-            let place = (x.start + along * (x.end - x.start), y.start + up * (y.end - y.start));
-            pixels.extend(color(place.0, place.1));
+            pixels.extend(color((f64::from(column) + 0.5) / f64::from(width), up));
         }
     }
-    let corner = (x.start, y.end);
-    let Some(element) = BitMapElement::with_owned_buffer(corner, (width, height), pixels) else {
+    let Some(element) = BitMapElement::with_owned_buffer(top_left, (width, height), pixels) else {
         return Err(RenderError::Drawing("heat map of the wrong size".into()));
     };
     chart.plotting_area().draw(&element)?;

@@ -4,14 +4,18 @@
 //! table → XYZ per direction ([`tristimulus`]) → mixture of drops → what each pixel of the
 //! [`camera`] sees of the sky, averaged over the sun's disc ([`sky`]) → sRGB → PNG.
 
+pub mod camera;
+mod color_diagram;
 mod directions;
 mod font;
 mod heat_map;
 mod picture;
 pub mod preview;
+pub mod sky;
 mod sun_smoothing;
 mod tristimulus;
 
+pub use color_diagram::ColorDiagram;
 pub use directions::DirectionGrid;
 pub use font::{FONT, ensure_font};
 pub use heat_map::{colour_bar, draw_pixels};

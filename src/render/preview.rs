@@ -6,10 +6,7 @@ use super::{
     DirectionGrid, FONT, Picture, RenderError, Tristimulus, colour_bar, draw_pixels, ensure_font,
     rotational_xyz,
 };
-use crate::color::{
-    Illuminant, Observer, SUN_ANGULAR_RADIUS, SunDisc, encode_srgb, fit_gamut, wavelength_srgb,
-    xyz_to_linear_srgb,
-};
+use crate::color::{Illuminant, Observer, SUN_ANGULAR_RADIUS, SunDisc, to_srgb, wavelength_srgb};
 use crate::phase_table::{PhaseTable, Slab};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -116,7 +113,8 @@ fn draw_sphere(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         .x_label_area_size(42)
         .y_label_area_size(64)
         .build_cartesian_2d(x.clone(), y.clone())?;
-    draw_pixels(&chart, x, y, |theta, phi| {
+    draw_pixels(&chart, (x.start, y.end), |along, up| {
+        let (theta, phi) = (within(&x, along), within(&y, up));
         let Some(corners) = grid.corners(theta.to_radians(), phi.to_radians()) else {
             return [255; 3];
         };
@@ -277,9 +275,8 @@ fn draw_bow(area: &Area<'_>, panel: BowPanel) -> Result<(), RenderError> {
         }
     }
     let exposure = 0.85 / brightest;
-    draw_pixels(&chart, theta, y, |t, p| {
-        let linear = xyz_to_linear_srgb(color(t, p).map(|v| v * exposure));
-        fit_gamut(linear).map(|v| (255.0 * encode_srgb(v)).round() as u8)
+    draw_pixels(&chart, (theta.start, y.end), |along, up| {
+        to_srgb(color(within(&theta, along), within(&y, up)), exposure)
     })?;
     let mut mesh = chart.configure_mesh();
     mesh.disable_mesh()
@@ -316,6 +313,11 @@ fn mean_over_wavelengths(table: &PhaseTable) -> Vec<f64> {
 fn degrees(axis: &[f64]) -> Range<f64> {
     let (from, to) = (axis[0].to_degrees(), axis[axis.len() - 1].to_degrees());
     if to > from { from..to } else { from - 0.5..from + 0.5 }
+}
+
+/// A place in a range by its share.
+fn within(range: &Range<f64>, share: f64) -> f64 {
+    range.start + share * (range.end - range.start)
 }
 
 /// Powers of ten that hold the positive values from a low quantile up to `top`, padded.

@@ -3,7 +3,8 @@
 use super::directions::DirectionGrid;
 use super::smooth_over_sun;
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer, SunDisc};
-use crate::phase_table::PhaseTable;
+use crate::phase_table::{Axes, PhaseTable};
+use rayon::prelude::*;
 
 /// XYZ (in sr⁻¹: 1 would be the illuminant's white) over the directions of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,29 @@ impl Tristimulus {
             }
         }
         Ok(Self { grid, xyz })
+    }
+
+    /// XYZ of one element of a table without azimuth dependence, averaged over the sun's disc, on
+    /// angles 0.05° apart.
+    ///
+    /// # Errors
+    /// [`ColorError`] when the table's wavelengths make no colour.
+    pub fn smoothed(
+        table: &PhaseTable,
+        element: usize,
+        illuminant: Illuminant,
+        observer: Observer,
+        sun_radius: f64,
+    ) -> Result<Self, ColorError> {
+        let axes = &table.header.axes;
+        let (from, to) = (axes.theta[0], axes.theta[axes.theta.len() - 1]);
+        let count = ((to - from) / 0.05_f64.to_radians()).ceil().max(1.0) as usize;
+        let theta: Vec<f64> =
+            (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();
+        let xyz = rotational_xyz(table, element, illuminant, observer, sun_radius, &theta)?;
+        let axes = Axes { wavelength: Vec::new(), theta, phi: vec![0.0] };
+        let xyz = xyz.into_iter().map(|v| v.map(|c| c as f32)).collect();
+        Ok(Self { grid: DirectionGrid::new(&axes), xyz })
     }
 
     /// XYZ in a direction (radians), where the table reaches.
@@ -86,17 +110,18 @@ pub fn rotational_xyz(
 ) -> Result<Vec<[f64; 3]>, ColorError> {
     let axes = &table.header.axes;
     let weights = ColorWeights::new(&axes.wavelength, illuminant, observer)?;
+    let curves: Vec<Vec<f64>> = table
+        .slabs
+        .par_iter()
+        .map(|slab| {
+            let values = slab.values.index_axis(ndarray::Axis(0), element);
+            let curve: Vec<f64> = values.column(0).iter().map(|&v| f64::from(v)).collect();
+            smooth_over_sun(&axes.theta, &curve, slab.wavelength, sun_radius, out)
+        })
+        .collect();
     let mut xyz = vec![[0.0; 3]; out.len()];
-    for (slab, weight) in table.slabs.iter().zip(&weights.weights) {
-        let column: Vec<f64> = slab
-            .values
-            .index_axis(ndarray::Axis(0), element)
-            .column(0)
-            .iter()
-            .map(|&v| f64::from(v))
-            .collect();
-        let smooth = smooth_over_sun(&axes.theta, &column, slab.wavelength, sun_radius, out);
-        for (sum, value) in xyz.iter_mut().zip(smooth) {
+    for (curve, weight) in curves.iter().zip(&weights.weights) {
+        for (sum, value) in xyz.iter_mut().zip(curve) {
             for c in 0..3 {
                 sum[c] += weight[c] * value;
             }

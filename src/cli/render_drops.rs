@@ -1,0 +1,214 @@
+//! The drops of a picture: tables read from files, or computed for the picture.
+
+use super::UsageError;
+use gonio::lee::Sampling;
+use gonio::medium::{Medium, MediumSpec};
+use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
+use gonio::scene::{Choice, Grid, SceneFile, ShapeName};
+use gonio::series::lorenz_mie::Sphere;
+use gonio::simulate::{self, SimulateError};
+use ndarray::Array3;
+use num_complex::Complex64;
+use rayon::prelude::*;
+use serde::Deserialize;
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+/// One kind of drop of a picture.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DropKeys {
+    /// A table, in place of the keys below; relative to the scene file.
+    table: Option<String>,
+    /// sphere or raindrop
+    shape: Option<String>,
+    radius_mm: Option<f64>,
+    medium: Option<String>,
+    /// How many drops of this kind there are, relative to the other kinds.
+    number: Option<f64>,
+    /// Standard deviation of ln(radius): a log-normal distribution of sizes.
+    size_spread: Option<f64>,
+    /// Number of wavelengths (raindrops).
+    wavelengths: Option<u64>,
+}
+
+/// Sizes that stand for a distribution.
+const SIZES: usize = 11;
+/// Scattering angles of spheres computed here, degrees; nearer to the sun nobody looks.
+const FROM: f64 = 2.0;
+
+impl DropKeys {
+    pub fn table(path: &Path) -> Self {
+        Self { table: Some(path.to_string_lossy().into_owned()), ..Self::default() }
+    }
+}
+
+/// The tables and numbers of all kinds.
+pub fn tables(
+    kinds: &[DropKeys],
+    folder: &Path,
+    sun_elevation_deg: f64,
+    polarised: bool,
+) -> anyhow::Result<Vec<(PhaseTable, f64)>> {
+    if kinds.is_empty() {
+        let message = "drops: none given; add [[drops]] to the scene, or --table FILE.h5";
+        return Err(UsageError(message.into()).into());
+    }
+    let mut out = Vec::new();
+    for kind in kinds {
+        let number = kind.number.unwrap_or(1.0);
+        if let Some(name) = &kind.table {
+            out.push((gonio::hdf5::read(&folder.join(name))?, number));
+            continue;
+        }
+        let radius = kind.radius_mm.unwrap_or(0.5);
+        let spread = kind.size_spread.unwrap_or(0.0);
+        if !(1e-4..=10.0).contains(&radius) || !(0.0..=1.0).contains(&spread) {
+            let message = format!(
+                "drops: radius_mm = {radius}, size_spread = {spread}: accepted are 0.0001 to 10 \
+                 and 0 to 1"
+            );
+            return Err(UsageError(message).into());
+        }
+        for (radius, share) in sizes(radius * 1e-3, spread) {
+            let table = match kind.shape.as_deref().unwrap_or("sphere") {
+                "sphere" => sphere(kind, radius, polarised)?,
+                "raindrop" => raindrop(kind, radius, sun_elevation_deg, polarised)?,
+                other => {
+                    let message =
+                        format!("drops.shape = \"{other}\": accepted are sphere and raindrop");
+                    return Err(UsageError(message).into());
+                }
+            };
+            out.push((table, number * share));
+        }
+    }
+    Ok(out)
+}
+
+/// Sizes of a log-normal distribution, evenly spaced in ln(radius) over ±2.5 σ, and their shares.
+fn sizes(radius: f64, spread: f64) -> Vec<(f64, f64)> {
+    if spread == 0.0 {
+        return vec![(radius, 1.0)];
+    }
+    let place = |i: usize| 5.0 * (i as f64 / (SIZES - 1) as f64 - 0.5);
+    let norm: f64 = (0..SIZES).map(|i| (-0.5 * place(i).powi(2)).exp()).sum();
+    (0..SIZES)
+        .map(|i| (radius * (spread * place(i)).exp(), (-0.5 * place(i).powi(2)).exp() / norm))
+        .collect()
+}
+
+/// A sphere by Lorenz–Mie, sampled so that its ripple averages out over the sun's disc.
+fn sphere(kind: &DropKeys, radius: f64, polarised: bool) -> anyhow::Result<PhaseTable> {
+    let medium =
+        MediumSpec::name(kind.medium.as_deref().unwrap_or("water")).resolve(Path::new("."))?;
+    let sampling = Sampling::new(radius, true, 0.0, 1.0);
+    let step = sampling.steps.iter().copied().fold(f64::INFINITY, f64::min).max(2e-4);
+    let (from, to) = (FROM.to_radians(), PI);
+    let count = ((to - from) / step).ceil() as usize;
+    let theta: Vec<f64> =
+        (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();
+    // A distribution of sizes averages the ripple that single sizes need wavelengths for.
+    let most = if kind.size_spread.unwrap_or(0.0) > 0.0 { 64 } else { 300 };
+    let stride = sampling.wavelengths.len().div_ceil(most);
+    let mut wavelength: Vec<f64> = sampling.wavelengths.into_iter().step_by(stride).collect();
+    wavelength.sort_by(f64::total_cmp);
+    let quantity = if polarised { Quantity::Mueller } else { Quantity::PhaseFunction };
+    mie_table(&medium, radius, wavelength, theta, quantity)
+}
+
+/// The table of a sphere by Lorenz–Mie (metres, radians).
+pub fn mie_table(
+    medium: &Medium,
+    radius: f64,
+    wavelength: Vec<f64>,
+    theta: Vec<f64>,
+    quantity: Quantity,
+) -> anyhow::Result<PhaseTable> {
+    let slabs = wavelength
+        .par_iter()
+        .map(|&w| {
+            let index = medium.index(w)?;
+            let solved = Sphere::new(TAU * radius / w, index)?;
+            Ok(slab(&solved, radius, w, index, &theta, quantity))
+        })
+        .collect::<anyhow::Result<Vec<_>>>()?;
+    let header = TableHeader {
+        axes: Axes { wavelength, theta, phi: vec![0.0] },
+        quantity,
+        forward_peak: ForwardPeak::Point,
+        rotational_symmetry: true,
+        method: "mie".into(),
+        shape: "sphere".into(),
+        radius,
+        sun_elevation: 0.0,
+        scene_toml: String::new(),
+        command_line: String::new(),
+    };
+    Ok(PhaseTable { header, slabs })
+}
+
+fn slab(
+    solved: &Sphere,
+    radius: f64,
+    wavelength: f64,
+    index: Complex64,
+    theta: &[f64],
+    quantity: Quantity,
+) -> Slab {
+    let q = solved.efficiencies();
+    let area = PI * radius * radius;
+    let scale = (wavelength / TAU).powi(2) / (q.q_sca * area);
+    let amplitudes = solved.amplitudes(theta);
+    let shape = (quantity.elements(), theta.len(), 1);
+    let values = Array3::from_shape_fn(shape, |(element, t, _)| {
+        let (s1, s2) = amplitudes[t];
+        let matrix = gonio::optics::AmplitudeMatrix { s1, s2, ..Default::default() };
+        let value = match quantity {
+            Quantity::PhaseFunction => matrix.s11(),
+            Quantity::Mueller => matrix.mueller()[element / 4][element % 4],
+        };
+        (scale * value) as f32
+    });
+    Slab {
+        wavelength,
+        index,
+        values,
+        caustic_order: None,
+        scattering_cross_section: q.q_sca * area,
+        extinction_cross_section: q.q_ext * area,
+        asymmetry: q.asymmetry,
+        energy: None,
+        sum_before_peak: f64::NAN,
+        peak_share: 0.0,
+        error_estimate: 1e-10,
+    }
+}
+
+/// A raindrop by rays, where a rainbow is: 90° to 180° from the sun.
+fn raindrop(
+    kind: &DropKeys,
+    radius: f64,
+    sun_elevation_deg: f64,
+    polarised: bool,
+) -> anyhow::Result<PhaseTable> {
+    let mut file = SceneFile::default();
+    file.particle.shape = Some(Choice(ShapeName::Raindrop));
+    file.particle.radius_mm = Some(radius * 1e3);
+    file.particle.medium = Some(MediumSpec::name(kind.medium.as_deref().unwrap_or("water")));
+    let range = |from, to, count| Some(Grid::Range { from, to, count });
+    file.light.sun_elevation_deg = Some(sun_elevation_deg);
+    file.light.wavelengths_nm = range(390.0, 710.0, kind.wavelengths.unwrap_or(33));
+    file.table.theta_deg = range(100.0, 180.0, 1601);
+    file.table.azimuth_deg = range(0.0, 360.0, 181);
+    file.table.quantity =
+        Some(Choice(if polarised { Quantity::Mueller } else { Quantity::PhaseFunction }));
+    let scene = file.validate()?;
+    let header = simulate::header(&scene, String::new())?;
+    let mut slabs = Vec::new();
+    simulate::simulate::<SimulateError>(&scene, |_, slab| {
+        slabs.push(slab);
+        Ok(())
+    })?;
+    Ok(PhaseTable { header, slabs })
+}

@@ -1,0 +1,63 @@
+//! Diagrams that are no phase tables: named axes and values over them, with the same dimension
+//! scales, so that the same readers open them.
+
+use super::TableError;
+use super::raw::{Kind, NewFile};
+use super::schema::scale;
+use super::writer::{Output, WriteOptions};
+use std::path::Path;
+
+/// One axis.
+pub struct DiagramAxis<'a> {
+    pub name: &'a str,
+    pub units: &'a str,
+    pub long_name: &'a str,
+    pub values: &'a [f64],
+}
+
+/// Values over some of the axes (by index), last axis fastest.
+pub struct DiagramValues<'a> {
+    pub name: &'a str,
+    pub units: &'a str,
+    pub long_name: &'a str,
+    pub axes: &'a [usize],
+    pub values: &'a [f32],
+}
+
+/// Write a diagram; the file appears only when it is complete.
+///
+/// # Errors
+/// [`TableError`] as for tables: the file exists, the disk is full, the folder is missing.
+pub fn write_diagram(
+    path: &Path,
+    overwrite: bool,
+    attributes: &[(&str, &str)],
+    axes: &[DiagramAxis<'_>],
+    values: &[DiagramValues<'_>],
+) -> Result<(), TableError> {
+    let bytes = values.iter().map(|v| 4 * v.values.len() as u64).sum();
+    let options = WriteOptions { overwrite, ..WriteOptions::default() };
+    let output = Output::start(path, bytes, &options)?;
+    let file = NewFile::create(output.pending.path(), path)?;
+    for (name, text) in attributes {
+        file.attribute(name, text)?;
+    }
+    let mut scales = Vec::new();
+    for axis in axes {
+        let data = scale(&file, axis.name, axis.values, axis.units)?;
+        data.attribute("long_name", axis.long_name)?;
+        scales.push(data);
+    }
+    for value in values {
+        let shape: Vec<u64> = value.axes.iter().map(|&a| axes[a].values.len() as u64).collect();
+        let data = file.dataset(value.name, Kind::F32, &shape, None)?;
+        data.write(value.values)?;
+        data.attribute("units", value.units)?;
+        data.attribute("long_name", value.long_name)?;
+        let attached: Vec<_> = value.axes.iter().map(|&a| &scales[a]).collect();
+        data.attach(&attached)?;
+    }
+    drop(scales);
+    file.close()?;
+    output.publish()
+}
