@@ -57,6 +57,8 @@ pub struct Plan {
     /// Orders (chords) summed.
     pub orders: Vec<u32>,
     pub forward_diffraction: bool,
+    /// Relative error asked for.
+    pub tolerance: f64,
     /// Grid of the patches: rings from centre to rim, and spokes.
     pub rings: usize,
     pub spokes: usize,
@@ -103,10 +105,38 @@ impl Plan {
             symmetry,
             orders,
             forward_diffraction,
+            tolerance: scene.tolerance,
             rings,
             spokes,
             reasons,
         })
+    }
+
+    /// A plan for single directions: what the caller says, nothing decided.
+    pub fn direct(
+        shape: Shape,
+        radius: f64,
+        engine: Engine,
+        orders: Vec<u32>,
+        forward_diffraction: bool,
+        tolerance: f64,
+        rays_across: Option<usize>,
+    ) -> Self {
+        let mut reasons = Vec::new();
+        let symmetry = symmetry(&shape, &mut reasons);
+        let rings = rays_across.map_or_else(|| rings(tolerance), |n| n.div_ceil(2));
+        Self {
+            engine,
+            shape,
+            radius,
+            symmetry,
+            orders,
+            forward_diffraction,
+            tolerance,
+            rings,
+            spokes: 2 * rings,
+            reasons,
+        }
     }
 
     /// The azimuths that the table holds: one where there is no dependence on azimuth.

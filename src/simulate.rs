@@ -13,6 +13,9 @@ use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, EnergyBudget, Slab, TableHeader};
 use crate::plan::{Engine, Plan, PlanError, Symmetry};
 use crate::scene::{Particle, Scene};
+use crate::series::SeriesError;
+use crate::series::debye::Term;
+use crate::series::table::{Source, sphere_slab};
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -25,7 +28,7 @@ pub enum SimulateError {
     #[error(transparent)]
     Medium(#[from] MediumError),
     #[error(transparent)]
-    Series(#[from] crate::series::SeriesError),
+    Series(#[from] SeriesError),
     #[error(
         "energy does not add up at {wavelength_nm} nm: {residual:e} of the light is unaccounted for"
     )]
@@ -69,12 +72,11 @@ pub fn simulate<E: From<SimulateError>>(
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        let (field, value) = ("method", "mie".to_string());
-        return Err(crate::series::SeriesError::Invalid { field, value, accepted: "rays" }.into());
+        return Ok(series_slab(scene, plan, wavelength, index)?);
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
-    let far_field = far_field(scene, plan, index, size_parameter, &scene.phi);
+    let far_field = far_field(plan, index, size_parameter, &scene.phi);
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
     let tabulator = Tabulator {
@@ -111,14 +113,13 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
 
 /// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre.
 pub fn scatter(
-    scene: &Scene,
     plan: &Plan,
     index: Complex64,
     size_parameter: f64,
     directions: &[(f64, f64)],
 ) -> Vec<AmplitudeMatrix> {
     let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
-    let far_field = far_field(scene, plan, index, size_parameter, &azimuths);
+    let far_field = far_field(plan, index, size_parameter, &azimuths);
     far_field.scatter(directions, plan.forward_diffraction)
 }
 
@@ -184,7 +185,6 @@ fn energy(
 
 /// Trace, and make the far field ready for columns and directions.
 fn far_field<'a>(
-    scene: &Scene,
     plan: &'a Plan,
     index: Complex64,
     size_parameter: f64,
@@ -197,7 +197,7 @@ fn far_field<'a>(
         let settings = FanSettings {
             size_parameter,
             orders: &plan.orders,
-            tolerance: scene.tolerance,
+            tolerance: plan.tolerance,
             azimuths: &azimuths,
         };
         let tracer = tracer.with_curved_interface(size_parameter);
@@ -209,3 +209,20 @@ fn far_field<'a>(
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.
 const FIRST_SPOKE: f64 = 0.0123;
+
+/// The exact series for a sphere.
+fn series_slab(
+    scene: &Scene,
+    plan: &Plan,
+    wavelength: f64,
+    index: Complex64,
+) -> Result<Slab, SeriesError> {
+    let source = if plan.engine == Engine::LorenzMie {
+        Source::LorenzMie
+    } else {
+        let orders = plan.orders.iter().map(|&p| Term::Order(p));
+        Source::Debye(orders.chain(plan.forward_diffraction.then_some(Term::Diffraction)).collect())
+    };
+    let (quantity, peak) = (scene.quantity, scene.forward_peak);
+    sphere_slab(&source, plan.radius, wavelength, index, &scene.theta, quantity, peak)
+}

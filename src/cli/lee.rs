@@ -200,7 +200,7 @@ fn raindrops(args: &LeeArgs, request: &Request) -> anyhow::Result<Diagram> {
         let plan = Plan::new(&scene)?;
         let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, azimuth)).collect();
         let size = TAU * radius / wavelength;
-        let matrices = gonio::simulate::scatter(&scene, &plan, index, size, &directions);
+        let matrices = gonio::simulate::scatter(&plan, index, size, &directions);
         Ok(matrices
             .iter()
             .map(|m| {

@@ -2,8 +2,8 @@
 //! output, progress bars and `anyhow`.
 
 mod batch;
-mod export;
 mod compare;
+mod export;
 mod info;
 mod interrupt;
 mod lee;
@@ -11,6 +11,8 @@ mod material;
 mod plot;
 mod render;
 mod render_drops;
+mod scatter;
+mod scatter_input;
 mod scene_flags;
 mod table;
 mod validate;
@@ -53,6 +55,7 @@ Exit codes: 0 done, 1 failed while running, 2 wrong input.";
 enum Command {
     Material(material::MaterialArgs),
     Table(table::TableArgs),
+    Scatter(scatter::ScatterArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
     Export(export::ExportArgs),
@@ -79,6 +82,7 @@ fn run(command: Command) -> anyhow::Result<()> {
     match command {
         Command::Material(args) => material::run(args),
         Command::Table(args) => table::run(args),
+        Command::Scatter(args) => scatter::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),
         Command::Export(args) => export::run(args),

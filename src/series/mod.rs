@@ -6,6 +6,7 @@
 pub mod angular;
 pub mod debye;
 pub mod lorenz_mie;
+pub mod table;
 
 use num_complex::Complex64;
 

@@ -15,6 +15,8 @@ pub struct Fates {
     pub truncated: f64,
     /// What is missing to 1.
     pub residual: f64,
+    /// Power that left, weighted with the cosine of its scattering angle.
+    pub forward_momentum: f64,
 }
 
 /// Trace every ray of a wavefront and add up where its power went.
@@ -35,6 +37,7 @@ pub fn energy_by_fate(tracer: &Tracer, wavefront: &Wavefront) -> Fates {
         for (t, r) in total.left_by_order.iter_mut().zip(&ring.left_by_order) {
             *t += r;
         }
+        total.forward_momentum += ring.forward_momentum;
         total.absorbed += ring.absorbed;
         total.totally_reflected += ring.totally_reflected;
         total.truncated += ring.truncated;
@@ -51,11 +54,13 @@ fn add_ray(tracer: &Tracer, wavefront: &Wavefront, i: usize, j: usize, sum: &mut
     let (u, v) = wavefront.place(i, j);
     let weight = wavefront.share(i, j) / wavefront.area();
     let left = &mut sum.left_by_order;
+    let momentum = &mut sum.forward_momentum;
     let remainder = tracer.trace(u, v, |exit| {
         let square =
             |e: &crate::math::vec3::Field| e.x.norm_sqr() + e.y.norm_sqr() + e.z.norm_sqr();
         let power = 0.5 * (square(&exit.field[0]) + square(&exit.field[1]));
         left[exit.order as usize] += weight * power;
+        *momentum += weight * power * exit.direction.z;
     });
     if let Some(rest) = remainder {
         sum.absorbed += weight * rest.absorbed;
