@@ -151,7 +151,7 @@ fn wrong_files_are_named_with_their_line() {
     let folder = tempfile::tempdir().unwrap();
     let table = |rows: &str| format!("DATA:\n  - type: tabulated nk\n    data: |\n{rows}");
     let change = |from: &str, to: &str| GLASS.replace(from, to);
-    let deep = format!("DATA: {}", "[".repeat(100_000));
+    let deep = |levels: usize| format!("DATA: {}{}\n", "[".repeat(levels), "]".repeat(levels));
     let cases = [
         (table("        0.4 1.5 0\n        0.4 1.4 0\n"), "line 5: wavelength 0.4 µm again"),
         (table("        0.4 1.5 0\n        0.3 1.4 0\n"), "line 5: wavelength 0.3 µm after 0.4 µm"),
@@ -171,7 +171,8 @@ fn wrong_files_are_named_with_their_line() {
         (change("DATA:", "DATUM:"), "no list DATA"),
         (change("COMMENTS: |", "COMMENTS: ["), "broken YAML"),
         ("DATA: &a [*a]\n".into(), "line 1: YAML aliases are not accepted"),
-        (deep, "nested deeper than 32 levels"),
+        (deep(40), "nested deeper than 32 levels"),
+        (deep(100_000), "broken YAML: recursion limit exceeded"),
         ("\u{0}\u{1}".into(), "file.yml"),
         (String::new(), "no list DATA"),
     ];

@@ -159,7 +159,7 @@ fn the_fire_of_diamond() {
 }
 
 /// A many-term Cauchy fit keeps a Sellmeier glass to 3e-5 in the visible (what is left is the
-/// infrared term, which powers of 1/λ² cannot follow), and its Abbe number.
+/// infrared term, which powers of 1/λ² cannot follow), and its Abbe number to 0.1.
 #[test]
 fn sellmeier_to_cauchy() {
     let glass = medium("N-BK7");
@@ -168,7 +168,7 @@ fn sellmeier_to_cauchy() {
     assert!(error < 3e-5, "{error:e}");
     let formula = Formula::cauchy(&terms).unwrap();
     let (a, b) = (Abbe::of(AbbeLines::HeliumD, |um| formula.index(um)), 64.1673);
-    assert!((a.number - b).abs() < 0.02, "{}", a.number);
+    assert!((a.number - b).abs() < 0.1, "{}", a.number);
 }
 
 /// k of water: Pope & Fry in the visible, continuous at the joins, positive everywhere.
