@@ -28,6 +28,10 @@ fn tables() -> (tempfile::TempDir, std::path::PathBuf) {
     let write = |name: &str, table| hdf5::write(&folder.join(name), &table, options()).unwrap();
     write("rayleigh.h5", mie_table(1e-6, &[1e-3], 1.33, 721, Quantity::Mueller));
     write("drop.h5", mie_table(2e-5, &[4.5e-7, 5.5e-7, 6.5e-7], 1.333, 3601, Quantity::Mueller));
+    if std::env::var_os("GONIO_KEEP").is_some() {
+        let colours: Vec<f64> = (0..33).map(|i| (380.0 + 10.625 * f64::from(i)) * 1e-9).collect();
+        write("bow.h5", mie_table(3e-4, &colours, 1.333, 3601, Quantity::PhaseFunction));
+    }
     (temporary, folder)
 }
 

@@ -66,7 +66,9 @@ fn curve(slab: &Slab, axes: &Axes, cap: f64, polarised: bool) -> Curve {
     // A peak that the table already holds apart is not in the values.
     let apart = slab.peak_share;
     let before = integral(axes, &elements[0], |_| 1.0);
-    if let Some(edge) = axes.theta.iter().position(|theta| *theta >= cap).filter(|_| cap > 0.0) {
+    if let Some(edge) =
+        axes.theta.iter().position(|theta| *theta >= cap * (1.0 - 1e-9)).filter(|_| cap > 0.0)
+    {
         // Ratios to S11 stay: the capped part is polarised as it was.
         for i in 0..edge {
             let factor = (elements[0][edge] / elements[0][i]).min(1.0);

@@ -8,6 +8,9 @@
 
 use super::average::Averaged;
 
+/// Samples that a cell's mean is taken over.
+const PER_CELL: usize = 32;
+
 /// The plugin.
 pub const PLUGIN: &str = include_str!("mitsuba_plugin.py");
 /// A scene that renders the bow.
@@ -32,7 +35,8 @@ pub fn spectral_table(averaged: &Averaged) -> String {
 }
 
 /// `tabphase.txt`: per wavelength a line `wavelength_nm: v1, v2, …` with `count` values uniform in
-/// cos θ from −1 to +1, each the mean over its cell's neighbourhood by linear interpolation.
+/// cos θ from −1 to +1, each the mean over its cell, so that the sum keeps
+/// its power where the curve is narrower than the grid.
 pub fn tabphase(averaged: &Averaged, count: usize) -> String {
     let count = count.max(2);
     let mut text = format!(
@@ -40,9 +44,15 @@ pub fn tabphase(averaged: &Averaged, count: usize) -> String {
         averaged.cap.to_degrees()
     );
     for curve in &averaged.curves {
-        let cosine = |i: usize| -1.0 + 2.0 * i as f64 / (count - 1) as f64;
+        let step = 2.0 / (count - 1) as f64;
         let values: Vec<String> = (0..count)
-            .map(|i| format!("{:.7e}", averaged.at(curve, 0, cosine(i).clamp(-1.0, 1.0).acos())))
+            .map(|i| {
+                let middle = -1.0 + step * i as f64;
+                let (low, high) = ((middle - 0.5 * step).max(-1.0), (middle + 0.5 * step).min(1.0));
+                let at = |k: usize| low + (high - low) * (k as f64 + 0.5) / PER_CELL as f64;
+                let sum: f64 = (0..PER_CELL).map(|k| averaged.at(curve, 0, at(k).acos())).sum();
+                format!("{:.7e}", sum / PER_CELL as f64)
+            })
             .collect();
         text.push_str(&format!("{}: {}\n", curve.wavelength * 1e9, values.join(", ")));
     }

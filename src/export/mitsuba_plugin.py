@@ -74,4 +74,4 @@ class GonioPhase(mi.PhaseFunction):
         return f"GonioPhase[{len(self.nm)} wavelengths, {self.low} to {self.high} nm]"
 
 
-mi.register_phasefunction("gonio", GonioPhase)
+mi.register_phase("gonio", lambda props: GonioPhase(props))

@@ -97,6 +97,7 @@ impl NewFile {
             done(path, h5p::H5Pset_link_creation_order(creation.id, order))?;
             let access = property_list(path, *H5P_FILE_ACCESS)?;
             done(path, h5p::H5Pset_libver_bounds(access.id, H5F_LIBVER_V110, H5F_LIBVER_V110))?;
+            done(path, h5p::H5Pset_file_locking(access.id, 0, 1))?;
             let degree = h5f::H5F_close_degree_t::H5F_CLOSE_STRONG;
             done(path, h5p::H5Pset_fclose_degree(access.id, degree))?;
             let file = h5f::H5Fcreate(name.as_ptr(), h5f::H5F_ACC_TRUNC, creation.id, access.id);

@@ -1,7 +1,7 @@
 //! Reading through the HDF5 C library, with every claim of the file checked before it is believed.
 
 use super::TableError;
-use hdf5::globals::{H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT, H5T_NATIVE_UINT8};
+use hdf5::globals::{H5P_FILE_ACCESS, H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT, H5T_NATIVE_UINT8};
 use hdf5::sync::sync;
 use hdf5_sys::h5::herr_t;
 use hdf5_sys::h5i::hid_t;
@@ -77,8 +77,11 @@ impl OpenFile {
         let name = path.to_str().and_then(|text| CString::new(text).ok());
         let name = name.ok_or_else(|| foreign(path, "its name is not valid UTF-8"))?;
         let id = sync(|| unsafe {
-            // SAFETY: a C string and a default property list.
-            let id = h5f::H5Fopen(name.as_ptr(), h5f::H5F_ACC_RDONLY, h5p::H5P_DEFAULT);
+            // SAFETY: a C string and a property list of our own. A file under its final name is
+            // whole and stays as it is; locks, which network disks may lack, are not needed.
+            let access = owned(path, h5p::H5Pcreate(*H5P_FILE_ACCESS), h5p::H5Pclose)?;
+            done(path, h5p::H5Pset_file_locking(access.0, 0, 1))?;
+            let id = h5f::H5Fopen(name.as_ptr(), h5f::H5F_ACC_RDONLY, access.0);
             owned(path, id, h5f::H5Fclose)
         })?;
         Ok(OpenFile { id, path: path.to_path_buf(), length: data.len() })

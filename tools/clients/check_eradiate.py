@@ -19,7 +19,7 @@ from eradiate.radprops import ParticleProperties  # noqa: E402
 
 properties = ParticleProperties.convert(data) if hasattr(ParticleProperties, "convert") \
     else ParticleProperties(data)
-layer = eradiate.scenes.atmospheres.ParticleLayer(
+layer = eradiate.scenes.atmosphere.ParticleLayer(
     bottom=0.0, top=2000.0, tau_ref=0.2, particle_properties=properties,
     w_ref=float(data["w"][1]),
 )
