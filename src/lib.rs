@@ -37,5 +37,8 @@ pub mod farfield;
 pub mod simulate;
 
 #[cfg(feature = "hdf5")]
+pub mod export;
+
+#[cfg(feature = "hdf5")]
 pub mod batch;
 pub mod lee;

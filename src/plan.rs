@@ -229,7 +229,7 @@ fn orders(scene: &Scene, index: f64, reasons: &mut Vec<String>) -> (Vec<u32>, bo
 /// orders must be kept down to far less than the tolerance itself; measured against exact sums of
 /// Debye terms (1.1 % error up to p = 7 at 120–150° for a tolerance of 1 %).
 fn remainder_limit(tolerance: f64) -> f64 {
-    0.03 * tolerance
+    0.035 * tolerance
 }
 
 /// The last order that matters for a sphere of this index.

@@ -168,8 +168,8 @@ fn energy(
     let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { ENERGY_GRID };
     let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, ENERGY_GRID, spokes));
-    // An absorbing interface mixes incident and reflected power: a term of the order of k.
-    if fates.residual.abs() > ENERGY_TOLERANCE + index.im {
+    // An absorbing interface mixes incident and reflected power: a term of the order of k per hit.
+    if fates.residual.abs() > ENERGY_TOLERANCE + f64::from(last + 1) * index.im {
         let wavelength_nm = wavelength * 1e9;
         return Err(SimulateError::Energy { wavelength_nm, residual: fates.residual });
     }

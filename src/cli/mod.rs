@@ -2,6 +2,7 @@
 //! output, progress bars and `anyhow`.
 
 mod batch;
+mod export;
 mod compare;
 mod info;
 mod interrupt;
@@ -16,6 +17,7 @@ mod validate;
 
 use clap::{Parser, Subcommand};
 use gonio::batch::BatchError;
+use gonio::export::ExportError;
 use gonio::hdf5::TableError;
 use gonio::medium::MediumError;
 use gonio::plan::PlanError;
@@ -53,6 +55,7 @@ enum Command {
     Table(table::TableArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
+    Export(export::ExportArgs),
     Lee(lee::LeeArgs),
     Compare(compare::CompareArgs),
     Render(render::RenderArgs),
@@ -78,6 +81,7 @@ fn run(command: Command) -> anyhow::Result<()> {
         Command::Table(args) => table::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),
+        Command::Export(args) => export::run(args),
         Command::Lee(args) => lee::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Render(args) => render::run(args),
@@ -104,6 +108,7 @@ fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.is::<MediumError>()
             || cause.is::<PlanError>()
             || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
+            || cause.downcast_ref::<ExportError>().is_some_and(ExportError::is_wrong_input)
     });
     if wrong_input { WRONG_INPUT } else { FAILED }
 }

@@ -117,7 +117,11 @@ impl<'a> Arc<'a> {
             }
         }
         let last = *self.nodes.last()?;
-        self.landmarks.push(Landmark::End(self.end_after(last)));
+        let end = self.end_after(last);
+        if end.alpha > last.alpha {
+            self.nodes.push(end);
+        }
+        self.landmarks.push(Landmark::End(end));
         Some(())
     }
 
@@ -193,7 +197,7 @@ impl<'a> Arc<'a> {
     fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &ArcLayout) -> Option<Edge> {
         Some(match landmark {
             Landmark::Axial => Edge::Alpha(0.0),
-            Landmark::End(node) => Edge::Alpha(node.alpha),
+            Landmark::End(node) => Edge::Last(*node),
             Landmark::Fold(fold) => {
                 Edge::Angle { angle: fold.angle + fold.lit * reach?, near: fold.alpha }
             }
@@ -227,7 +231,7 @@ impl<'a> Arc<'a> {
         let (a, b) = (self.find(from, true)?, self.find(to, false)?);
         let length = (b.angle - a.angle).abs();
         let count = count.unwrap_or(4 + (layout.density * length).ceil() as usize);
-        let ends = matches!(to, Edge::Alpha(_));
+        let ends = matches!(to, Edge::Last(_));
         let mut knots = Vec::with_capacity(count + 1);
         let mut focal_lines = a.exit.focal_lines;
         for k in 0..=count {
@@ -265,6 +269,7 @@ impl<'a> Arc<'a> {
     fn find(&self, edge: Edge, is_start: bool) -> Option<Node> {
         match edge {
             Edge::Alpha(alpha) => self.interpolated(alpha),
+            Edge::Last(node) => Some(node),
             Edge::Angle { angle, near } => self.at_angle(angle, near, is_start),
             Edge::Axis { axis, gap } => {
                 // beyond the crossing where a segment starts, before it where one ends
@@ -351,6 +356,7 @@ impl<'a> Arc<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Edge {
     Alpha(f64),
+    Last(Node),
     Angle { angle: f64, near: f64 },
     Axis { axis: f64, gap: f64 },
 }

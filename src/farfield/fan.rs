@@ -25,7 +25,6 @@ pub struct Fan {
 
 /// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
 struct OrderFan {
-    order: u32,
     meridians: Vec<Vec<Segment>>,
     axis_gap: f64,
     azimuths: Azimuths,
@@ -63,8 +62,19 @@ const DARK_ZETA: f64 = 7.5;
 /// Longest reach of a pair segment, radians: beyond, its Chebyshev series would need more points.
 const LONGEST_REACH: f64 = 0.3;
 const LONGEST_DARK: f64 = 0.45;
-/// Gaps tried about crossings of the axis, radians.
-const AXIS_GAPS: [f64; 4] = [0.02, 0.06, 0.14, 0.3];
+/// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
+/// and with the deformation of the outline.
+fn axis_gaps(tracer: &Tracer, order: u32) -> Vec<f64> {
+    const NARROWEST: f64 = 0.02;
+    const WIDEST: f64 = 0.35;
+    let silhouette = tracer.shape().silhouette();
+    let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
+    let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
+    let tangle = f64::from(order) * (high - low);
+    let mut gaps = [3.0, 6.0].map(|f| (f * tangle).clamp(NARROWEST, WIDEST)).to_vec();
+    gaps.dedup();
+    gaps
+}
 
 impl Fan {
     /// Trace all meridians.
@@ -105,7 +115,7 @@ impl Fan {
             self.orders.iter().filter(meets).map(|f| f.axis_gap).fold(0.0, f64::max)
         };
         let (forward, backward) = (gap(0.0), gap(PI));
-        let marked = |t: f64| t < forward || PI - t < backward || !self.irregular.is_empty();
+        let marked = |t: f64| t < forward || PI - t < backward;
         theta.iter().map(|&t| if marked(t) { 3 } else { 0 }).collect()
     }
 }
@@ -116,7 +126,7 @@ impl OrderFan {
         let azimuths = azimuths(tracer, settings);
         let places = azimuths.places(settings);
         let density = 60.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
-        AXIS_GAPS.iter().find_map(|&axis_gap| {
+        axis_gaps(tracer, order).into_iter().find_map(|axis_gap| {
             let layout = ArcLayout {
                 scan: 64 + 16 * order as usize,
                 axis_gap,
@@ -125,7 +135,7 @@ impl OrderFan {
                 knots: Vec::new(),
             };
             let meridians = trace(tracer, order, centre, &places, layout, settings.size_parameter)?;
-            Some(Self { order, meridians, axis_gap, azimuths: azimuths.clone() })
+            Some(Self { meridians, axis_gap, azimuths: azimuths.clone() })
         })
     }
 
@@ -167,15 +177,15 @@ impl OrderFan {
         (0..template.len())
             .map(|s| {
                 let kind = template[s].kind;
+                let parity = parity(&kind);
                 let mut knots = vec![[0.0; CHANNELS]; template[s].knots.len()];
-                for (k, weight) in weights.iter().enumerate() {
+                for (k, &weight) in weights.iter().enumerate() {
                     let (source, mirrored) = fold_index(first + k as i64, self.meridians.len());
-                    let odd = if mirrored { -weight } else { *weight };
-                    let is_odd = odd_channels(&kind);
+                    let weights: Knot =
+                        std::array::from_fn(|c| if mirrored { parity[c] * weight } else { weight });
                     for (to, from) in knots.iter_mut().zip(&self.meridians[source][s].knots) {
                         for c in 0..CHANNELS {
-                            let w = if is_odd(c) { odd } else { *weight };
-                            to[c] += w * from[c];
+                            to[c] += weights[c] * from[c];
                         }
                     }
                 }
@@ -192,24 +202,20 @@ fn fold_index(k: i64, count: usize) -> (usize, bool) {
     if turned > last { ((2 * last - turned) as usize, true) } else { (turned as usize, false) }
 }
 
-/// Channels of S3 and S4, which change sign in the mirror.
-fn odd_channels(kind: &Kind) -> fn(usize) -> bool {
-    match kind {
-        Kind::Plain { .. } => |c| (PLAIN_AMPLITUDE + 4..PLAIN_AMPLITUDE + 8).contains(&c),
-        Kind::Pair { .. } => |c| {
-            (PAIR_AMPLITUDE + 4..PAIR_AMPLITUDE + 8).contains(&c)
-                || (PAIR_AMPLITUDE + 12..PAIR_AMPLITUDE + 16).contains(&c)
-        },
-    }
+/// Sign of each channel in the mirror: S3 and S4 change theirs.
+fn parity(kind: &Kind) -> Knot {
+    let odd: &[usize] = match kind {
+        Kind::Plain { .. } => &[PLAIN_AMPLITUDE + 4],
+        Kind::Pair { .. } => &[PAIR_AMPLITUDE + 4, PAIR_AMPLITUDE + 12],
+    };
+    std::array::from_fn(|c| if odd.iter().any(|&o| (o..o + 4).contains(&c)) { -1.0 } else { 1.0 })
 }
 
 fn mirror(segment: &mut Segment) {
-    let odd = odd_channels(&segment.kind);
+    let parity = parity(&segment.kind);
     for knot in &mut segment.knots {
-        for (c, value) in knot.iter_mut().enumerate() {
-            if odd(c) {
-                *value = -*value;
-            }
+        for (value, sign) in knot.iter_mut().zip(parity) {
+            *value *= sign;
         }
     }
 }
@@ -256,12 +262,15 @@ fn trace(
     mut layout: ArcLayout,
     size_parameter: f64,
 ) -> Option<Vec<Vec<Segment>>> {
-    let silhouette = tracer.shape().silhouette();
-    let arcs: Vec<Arc> = places
-        .iter()
-        .map(|&phi| Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, &layout))
-        .collect::<Option<_>>()?;
-    let signature = arcs.first()?.signature();
+    let silhouette = tracer.shape().silhouette().tabulated();
+    let arc = |phi: f64| Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, &layout);
+    // A few meridians far apart tell soon whether all can correspond.
+    let probes = [0.0, 0.5, 1.0, 0.25, 0.75].map(|f| (f * (places.len() - 1) as f64) as usize);
+    let signature = arc(places[probes[0]])?.signature();
+    if probes.iter().any(|&k| arc(places[k]).is_none_or(|a| a.signature() != signature)) {
+        return None;
+    }
+    let arcs: Vec<Arc> = places.par_iter().map(|&phi| arc(phi)).collect::<Option<_>>()?;
     if arcs.iter().any(|arc| arc.signature() != signature) {
         return None;
     }
@@ -271,7 +280,7 @@ fn trace(
             return Some(found);
         }
         layout.folds.iter_mut().for_each(|(dark, reach)| {
-            *dark *= 0.7;
+            *dark *= 0.6;
             *reach *= 0.95;
         });
     }
@@ -279,7 +288,7 @@ fn trace(
 }
 
 /// How often the reach of pair segments is shortened when a complex ray cannot be found.
-const SHRINKS: usize = 8;
+const SHRINKS: usize = 4;
 
 /// Reach on the dark and lit side of each fold, common to all meridians.
 fn fold_reaches(arcs: &[Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {

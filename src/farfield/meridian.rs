@@ -106,6 +106,10 @@ impl<'a> Meridian<'a> {
     /// The ray at `α` that leaves in the plane, searched from a guess of ψ; its angle is unwrapped
     /// towards `near`. `None` where there is none nearby (total reflection, an axial caustic).
     pub fn node(&self, silhouette: &Silhouette, alpha: f64, guess: f64, near: f64) -> Option<Node> {
+        if alpha == 0.0 {
+            let exit = self.exit(self.centre)?;
+            return Some(self.finish(0.0, guess, self.centre, exit, near));
+        }
         let mut psi = guess;
         for _ in 0..STEPS {
             let (place, by_psi) = self.place(silhouette, alpha, psi);
@@ -156,7 +160,9 @@ impl<'a> Meridian<'a> {
                 continue;
             }
             let guess = psi + psi_rate * ahead;
-            let node = self.node(silhouette, alpha, guess, near);
+            let node = self
+                .node(silhouette, alpha, guess, near)
+                .or_else(|| self.search(silhouette, alpha, near, 2.0 * axis_gap));
             if let (Some(node), Some(before)) = (node, previous) {
                 let length = node.alpha - before.alpha;
                 if length < 1.5 * step {
@@ -173,6 +179,37 @@ impl<'a> Meridian<'a> {
             nodes.push(node);
         }
         nodes
+    }
+
+    /// Search a ray of the plane at `α` over launch azimuths, for use beyond a crossing of the axis,
+    /// where the meridian may go on at quite another azimuth.
+    fn search(&self, silhouette: &Silhouette, alpha: f64, near: f64, slack: f64) -> Option<Node> {
+        const PROBES: usize = 24;
+        const REACH: f64 = 1.3;
+        let crossing = ((near - self.axis_angle()) / PI).round();
+        if crossing == 0.0 || self.rotational {
+            return None;
+        }
+        let probe = |k: usize| {
+            let psi = self.azimuth + REACH * (2.0 * k as f64 / PROBES as f64 - 1.0);
+            let exit = self.exit(self.place(silhouette, alpha, psi).0)?;
+            Some((psi, exit.direction.dot(self.across)))
+        };
+        let probes: Vec<Option<(f64, f64)>> = (0..=PROBES).map(probe).collect();
+        let mut best: Option<Node> = None;
+        for pair in probes.windows(2) {
+            let (Some(a), Some(b)) = (pair[0], pair[1]) else { continue };
+            if a.1 * b.1 > 0.0 {
+                continue;
+            }
+            let guess = a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1);
+            let Some(node) = self.node(silhouette, alpha, guess, near) else { continue };
+            let off = |n: &Node| (n.angle - near).abs();
+            if off(&node) < slack.max(0.2) && best.is_none_or(|b| off(&node) < off(&b)) {
+                best = Some(node);
+            }
+        }
+        best
     }
 
     /// Unwrapped angle of the axial ray: backward for even orders, forward for odd ones.

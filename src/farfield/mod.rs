@@ -23,7 +23,7 @@ pub use direction::Direction;
 
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
-use crate::trace::Tracer;
+use crate::trace::{Tracer, Wavefront};
 use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
 use interference::{Interference, PathInterpolation};
@@ -41,7 +41,8 @@ pub struct FarField<'a> {
 /// How amplitudes are found.
 enum Source {
     Patches(CollectingSphere, Interference),
-    Meridians(Fan),
+    /// Meridians, and patches for the orders whose meridians do not correspond.
+    Meridians(Fan, Option<(CollectingSphere, Interference)>),
 }
 
 impl<'a> FarField<'a> {
@@ -59,8 +60,18 @@ impl<'a> FarField<'a> {
 
     /// Meridians with uniform Airy functions at their folds.
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
+        let fan = Fan::new(tracer, settings);
+        let patches = (!fan.irregular.is_empty()).then(|| {
+            let rings = (FALLBACK_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
+            let wavefront =
+                Wavefront::corners(tracer.shape(), rings as usize, 2 * rings as usize, 0.0123);
+            let sheets = patch::sheets(tracer, &wavefront, &fan.irregular);
+            let size_parameter = settings.size_parameter;
+            let interpolation = PathInterpolation::Gradient;
+            (CollectingSphere::new(sheets), Interference { size_parameter, interpolation })
+        });
         Self {
-            source: Source::Meridians(Fan::new(tracer, settings)),
+            source: Source::Meridians(fan, patches),
             silhouette: ForwardDiffraction::new(tracer.shape()),
             size_parameter: settings.size_parameter,
             _shape: tracer.shape(),
@@ -71,7 +82,7 @@ impl<'a> FarField<'a> {
     pub fn irregular(&self) -> &[u32] {
         match &self.source {
             Source::Patches(..) => &[],
-            Source::Meridians(fan) => &fan.irregular,
+            Source::Meridians(fan, _) => &fan.irregular,
         }
     }
 
@@ -100,12 +111,16 @@ impl<'a> FarField<'a> {
                 }
                 column
             }
-            Source::Meridians(fan) => Column {
-                amplitude: fan.column(theta, phi),
-                incoherent: Vec::new(),
-                rays: Vec::new(),
-                caustic_order: fan.caustic_order(theta),
-            },
+            Source::Meridians(fan, patches) => {
+                let mut amplitude = fan.column(theta, phi);
+                if let Some((sphere, interference)) = patches {
+                    for (sum, &t) in amplitude.iter_mut().zip(theta) {
+                        *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
+                    }
+                }
+                let caustic_order = fan.caustic_order(theta);
+                Column { amplitude, incoherent: Vec::new(), rays: Vec::new(), caustic_order }
+            }
         }
     }
 
@@ -116,7 +131,15 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
                 .collect(),
-            Source::Meridians(fan) => scatter_by_columns(fan, directions),
+            Source::Meridians(fan, patches) => {
+                let mut amplitudes = scatter_by_columns(fan, directions);
+                if let Some((sphere, interference)) = patches {
+                    for (sum, &(t, p)) in amplitudes.iter_mut().zip(directions) {
+                        *sum += interference.collect(sphere, &Direction::new(t, p)).amplitude;
+                    }
+                }
+                amplitudes
+            }
         };
         if diffraction {
             for (amplitude, &(theta, phi)) in amplitudes.iter_mut().zip(directions) {
@@ -128,6 +151,9 @@ impl<'a> FarField<'a> {
         amplitudes
     }
 }
+
+/// Rings of the patch grid for irregular orders at a tolerance of 1 %.
+const FALLBACK_RINGS: f64 = 90.0;
 
 /// Directions grouped into columns of equal azimuth, each swept in ascending θ.
 fn scatter_by_columns(fan: &Fan, directions: &[(f64, f64)]) -> Vec<AmplitudeMatrix> {

@@ -47,6 +47,7 @@ mod body;
 mod chunk;
 mod diagram;
 mod literal;
+mod netcdf;
 mod raw;
 mod raw_read;
 mod reader;
@@ -57,6 +58,7 @@ mod sweep;
 mod writer;
 
 pub use crate::pending_file::remove_all_pending as remove_temporaries;
+pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
 pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
 pub use reader::{TableReader, read};
 pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};

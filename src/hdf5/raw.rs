@@ -185,6 +185,11 @@ impl NewDataset {
         })
     }
 
+    /// Length of a one-dimensional dataset.
+    pub fn length(&self) -> u64 {
+        self.shape.first().copied().unwrap_or(1)
+    }
+
     /// Write all strings of a dataset of [`Kind::Texts`].
     pub fn write_texts(&self, texts: &[String]) -> Result<(), TableError> {
         assert_eq!(self.kind, Kind::Texts, "a dataset of strings");

@@ -12,6 +12,7 @@
 use crate::math::scalar::Scalar;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, PI};
+use std::sync::OnceLock;
 
 /// What replaces the cosine outside.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +52,12 @@ impl Grazing {
             return Self::series(s, eta).faded(s, share);
         }
         let scale = (ratio.inv()).sqrt() / third;
-        let out = airy_pair(eta, -1.0);
-        let inward = airy_pair(eta, 1.0);
+        let (out, inward) = if eta.im == 0.0 {
+            let out = real_airy_pair(eta.re);
+            (out, out.map(|(a, b)| (a.conj(), b.conj())))
+        } else {
+            (airy_pair(eta, -1.0), airy_pair(eta, 1.0))
+        };
         let (Some(out), Some(inward)) = (out, inward) else {
             return Self::flat(s);
         };
@@ -152,6 +157,33 @@ fn airy_pair(eta: Complex64, sign: f64) -> Option<(Complex64, Complex64)> {
     Some((complex_bessel::airy(w).ok()?, complex_bessel::airyprime(w).ok()?))
 }
 
+/// The outgoing pair for real η, from a table: real rays ask for it at every surface point.
+fn real_airy_pair(eta: f64) -> Option<(Complex64, Complex64)> {
+    const FROM: f64 = -16.0;
+    const PER_UNIT: f64 = 64.0;
+    const COUNT: usize = ((SERIES + 1.0 - FROM) * PER_UNIT) as usize + 2;
+    static TABLE: OnceLock<Vec<Option<(Complex64, Complex64)>>> = OnceLock::new();
+    let table = TABLE.get_or_init(|| {
+        (0..COUNT).map(|i| airy_pair((FROM + i as f64 / PER_UNIT).into(), -1.0)).collect()
+    });
+    let place = (eta - FROM) * PER_UNIT;
+    if !(place >= 0.0 && place < (COUNT - 1) as f64) {
+        return airy_pair(eta.into(), -1.0);
+    }
+    let i = place as usize;
+    let t = place - i as f64;
+    let ((a0, b0), (a1, b1)) = (table[i]?, table[i + 1]?);
+    // d/dη of Ai(w) is e^{-iπ/3} Ai'(w), and Ai'' = w Ai
+    let turn = Complex64::cis(-FRAC_PI_3);
+    let h = 1.0 / PER_UNIT;
+    let (w0, w1) = (turn * (FROM + i as f64 * h), turn * (FROM + (i + 1) as f64 * h));
+    let hermite = |v0: Complex64, v1: Complex64, s0: Complex64, s1: Complex64| {
+        let d = v1 - v0;
+        v0 + (d + ((s0 * h - d) * (1.0 - t) + (d - s1 * h) * t) * (1.0 - t)) * t
+    };
+    Some((hermite(a0, a1, turn * b0, turn * b1), hermite(b0, b1, turn * w0 * a0, turn * w1 * a1)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,6 +203,16 @@ mod tests {
         assert!((below.turn - above.turn).norm() < 1e-4);
         let far = Grazing::new(0.25, 1e7);
         assert!((far.lambda - 0.5).norm() < 1e-4 && (far.root - 0.5f64.sqrt()).norm() < 1e-4);
+    }
+
+    #[test]
+    fn table_meets_the_library() {
+        for i in 0..2000 {
+            let eta = -15.0 + i as f64 * 0.01203;
+            let (a, b) = real_airy_pair(eta).unwrap();
+            let (ea, eb) = airy_pair(eta.into(), -1.0).unwrap();
+            assert!((a - ea).norm() < 1e-6 * ea.norm() && (b - eb).norm() < 1e-6 * eb.norm());
+        }
     }
 
     #[test]

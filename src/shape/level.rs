@@ -105,6 +105,8 @@ struct Line<'a, T> {
 }
 
 const NEWTON_STEPS: usize = 40;
+/// `F` at the foot of the perpendicular below which a line passes well inside.
+const DEEP: f64 = -0.25;
 
 impl<'a, T: Scalar> Line<'a, T> {
     fn new(shape: &'a Shape, origin: Vec3<T>, direction: Vec3<T>) -> Self {
@@ -145,11 +147,8 @@ impl<'a, T: Scalar> Line<'a, T> {
             }
             let change = (next - t).size();
             t = next;
-            if change <= 4e-16 * (1.0 + t.size()) {
-                break;
-            }
-            // Quadratic convergence: the next step would be below rounding.
-            if change < 1e-9 * t.size() {
+            // Quadratic convergence: one more step reaches rounding.
+            if change <= 1e-9 * t.size() {
                 let (f, slope) = self.at(t);
                 return t - f / (slope - f / t);
             }
@@ -159,9 +158,9 @@ impl<'a, T: Scalar> Line<'a, T> {
 
     /// The first of the two roots about the point of greatest depth.
     fn near_root(&self, bound: f64) -> Option<T> {
-        let (deepest, guess) = self.deepest()?;
+        let (inside, guess) = self.inside()?;
         let mut t = guess;
-        let (mut low, mut high) = (-1.01 * bound, deepest.re());
+        let (mut low, mut high) = (-1.01 * bound, inside.re());
         for _ in 0..2 * NEWTON_STEPS {
             let (f, slope) = self.at(t);
             if f.re() > 0.0 {
@@ -175,28 +174,33 @@ impl<'a, T: Scalar> Line<'a, T> {
             }
             let change = (next - t).size();
             t = next;
-            if change <= 4e-16 * (1.0 + t.size()) {
+            // Quadratic convergence: one more step reaches rounding.
+            if change <= 1e-9 {
+                let (f, slope) = self.at(t);
+                t = t - f / slope;
                 break;
             }
         }
         Some(t)
     }
 
-    /// A point of the line inside the body, the deepest one where that matters (near the rim), and
-    /// a first guess of where the line enters. `None` when the line misses the body.
-    fn deepest(&self) -> Option<(T, T)> {
+    /// A point of the line inside the body, and a first guess of where the line enters. Far from
+    /// the rim the foot of the perpendicular serves; near it, the deepest point. `None` when the
+    /// line misses the body.
+    fn inside(&self) -> Option<(T, T)> {
         let middle = -self.half_q1;
         let distance = self.q0 - self.half_q1 * self.half_q1;
         let core = self.shape.rough_core();
-        if distance.re() < core * core {
+        // Through the core of a polar profile every line hits, and `F` itself may be rough there.
+        if distance.re() < core * core || self.at(middle).0.re() < DEEP {
             return Some((middle, middle - (-distance + 1.0).root()));
         }
         let mut t = middle;
         for _ in 0..NEWTON_STEPS {
-            let (slope, bend) = (self.at(t).1, self.bend(t));
+            let (slope, bend) = self.slope_and_bend(t);
             let step = slope / bend;
             t = t - step;
-            if step.size() < 1e-12 {
+            if step.size() < 1e-9 {
                 break;
             }
         }
@@ -204,12 +208,16 @@ impl<'a, T: Scalar> Line<'a, T> {
         if T::REAL && depth.re() > 0.0 {
             return None;
         }
-        Some((t, t - (-(depth * 2.0) / self.bend(t)).root()))
+        let bend = self.slope_and_bend(t).1;
+        Some((t, t - (-(depth * 2.0) / bend).root()))
     }
 
-    /// Second derivative of `F` along the line, by a difference of slopes.
-    fn bend(&self, t: T) -> T {
-        let h = 1e-5;
-        (self.at(t + h).1 - self.at(t - h).1) / (2.0 * h)
+    /// First and second derivative of `F` along the line.
+    fn slope_and_bend(&self, t: T) -> (T, T) {
+        let q = self.q0 + (self.half_q1 * 2.0 + t) * t;
+        let l = self.shape.level(q, self.z0 + self.z1 * t);
+        let dq = (self.half_q1 + t) * 2.0;
+        let cross = l.qz * dq * self.z1 * 2.0;
+        (l.q * dq + l.z * self.z1, l.q * 2.0 + l.qq * dq * dq + cross + l.zz * self.z1 * self.z1)
     }
 }

@@ -84,3 +84,49 @@ pub fn table(header: TableHeader) -> PhaseTable {
     let slabs = (0..header.axes.wavelength.len()).map(|index| slab(&header, index)).collect();
     PhaseTable { header, slabs }
 }
+
+/// An exact table of a sphere (radius and wavelengths in metres), normalised over its samples.
+pub fn mie_table(
+    radius: f64,
+    wavelengths: &[f64],
+    index: f64,
+    theta_count: usize,
+    quantity: Quantity,
+) -> PhaseTable {
+    use gonio::optics::AmplitudeMatrix;
+    let mut header = header(wavelengths.len(), theta_count, 1, quantity);
+    header.axes.wavelength = wavelengths.to_vec();
+    (header.method, header.shape, header.radius) = ("mie".into(), "sphere".into(), radius);
+    let weights = header.axes.solid_angle();
+    let slabs = wavelengths.iter().map(|&wavelength| {
+        let x = TAU * radius / wavelength;
+        let sphere = gonio::series::lorenz_mie::Sphere::new(x, Complex64::new(index, 0.0)).unwrap();
+        let amplitudes = sphere.amplitudes_parallel(&header.axes.theta);
+        let matrices: Vec<[[f64; 4]; 4]> = amplitudes
+            .iter()
+            .map(|&(s1, s2)| AmplitudeMatrix { s1, s2, ..Default::default() }.mueller())
+            .collect();
+        let sum: f64 = matrices.iter().zip(&weights).map(|(m, w)| m[0][0] * w).sum();
+        let values =
+            Array3::from_shape_fn((quantity.elements(), theta_count, 1), |(element, i, _)| {
+                (matrices[i][element / 4][element % 4] / sum) as f32
+            });
+        let efficiencies = sphere.efficiencies();
+        let area = PI * radius * radius;
+        Slab {
+            wavelength,
+            index: Complex64::new(index, 0.0),
+            values,
+            caustic_order: None,
+            scattering_cross_section: efficiencies.q_sca * area,
+            extinction_cross_section: efficiencies.q_ext * area,
+            asymmetry: efficiencies.asymmetry,
+            energy: None,
+            sum_before_peak: 1.0,
+            peak_share: 0.0,
+            error_estimate: 0.0,
+        }
+    });
+    let slabs = slabs.collect();
+    PhaseTable { header, slabs }
+}

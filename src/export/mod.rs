@@ -1,0 +1,49 @@
+//! Tables for other programs. Each file says what its program takes and which sign it expects.
+//!
+//! Most programs take one curve per wavelength: the mean over azimuth ([`average`]). The forward
+//! peak of a drop is far narrower than their grids and would need thousands of Legendre moments;
+//! so it is cut at an angle (`--cap-deg`, recorded), what was cut counts as unscattered, and its
+//! share is written into the file.
+
+pub mod average;
+pub mod csv;
+pub mod databases;
+pub mod exr;
+pub mod legendre;
+pub mod mitsuba;
+pub mod strip;
+
+use crate::color::ColorError;
+use crate::hdf5::TableError;
+
+/// What went wrong with an export.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    #[error("{field} = {value}: {accepted}")]
+    Invalid { field: String, value: String, accepted: String },
+    #[error("colours: {0}")]
+    Color(#[from] ColorError),
+    #[error("picture: {0}")]
+    Png(#[from] png::EncodingError),
+    #[error(transparent)]
+    Table(#[from] TableError),
+}
+
+impl ExportError {
+    /// True where the caller's input is wrong.
+    pub fn is_wrong_input(&self) -> bool {
+        match self {
+            ExportError::Invalid { .. } | ExportError::Color(_) => true,
+            ExportError::Table(error) => error.is_wrong_input(),
+            ExportError::Png(_) => false,
+        }
+    }
+}
+
+fn invalid(field: &str, value: impl ToString, accepted: &str) -> ExportError {
+    ExportError::Invalid {
+        field: field.into(),
+        value: value.to_string(),
+        accepted: accepted.into(),
+    }
+}

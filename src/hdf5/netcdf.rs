@@ -1,0 +1,103 @@
+//! Plain netCDF-4 files for other programs: dimensions, variables, attributes as they are given.
+
+use super::raw::{Kind, NewDataset, NewFile};
+use super::writer::{Output, invalid};
+use super::{TableError, WriteOptions};
+use std::path::Path;
+
+/// Values of a variable, last dimension fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NetcdfValues {
+    F64(Vec<f64>),
+    F32(Vec<f32>),
+    I32(Vec<i32>),
+    Texts(Vec<String>),
+}
+
+/// A variable: its name, dimensions by name, values and text attributes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetcdfVariable {
+    pub name: String,
+    pub dimensions: Vec<String>,
+    pub values: NetcdfValues,
+    pub attributes: Vec<(String, String)>,
+}
+
+/// A whole file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NetcdfFile {
+    pub dimensions: Vec<(String, usize)>,
+    pub variables: Vec<NetcdfVariable>,
+    pub attributes: Vec<(String, String)>,
+}
+
+/// Write a netCDF-4 file.
+///
+/// # Errors
+/// When a variable does not fill its dimensions, the file exists (without `overwrite`) or cannot be
+/// written.
+pub fn write_netcdf(path: &Path, content: &NetcdfFile, overwrite: bool) -> Result<(), TableError> {
+    let options = WriteOptions { overwrite, ..WriteOptions::default() };
+    let output = Output::start(path, 0, &options)?;
+    let file = NewFile::create(output.pending.path(), path)?;
+    content.attributes.iter().try_for_each(|(name, text)| file.attribute(name, text))?;
+
+    // Dimensions first, with their coordinate variable where there is one.
+    let mut scales: Vec<(&str, NewDataset)> = Vec::new();
+    for (name, length) in &content.dimensions {
+        let is_coordinate = |v: &&NetcdfVariable| v.name == *name && v.dimensions == [name.clone()];
+        let scale = match content.variables.iter().find(is_coordinate) {
+            Some(variable) => write_variable(&file, variable, &[*length as u64])?,
+            None => file.dataset(name, Kind::F32, &[*length as u64], None)?,
+        };
+        let bare = !content.variables.iter().any(|v| is_coordinate(&v));
+        // What netCDF-C calls a dimension that has no variable.
+        let label = format!("This is a netCDF dimension but not a netCDF variable.{length:10}");
+        scale.make_scale(if bare { &label } else { name })?;
+        scales.push((name, scale));
+    }
+    for variable in &content.variables {
+        if variable.dimensions == [variable.name.clone()] {
+            continue;
+        }
+        let along = variable.dimensions.iter().map(|dimension| {
+            let found = scales.iter().find(|(name, _)| name == dimension);
+            found.ok_or_else(|| invalid("dimension", dimension, "a dimension of the file"))
+        });
+        let along = along.collect::<Result<Vec<_>, _>>()?;
+        let shape: Vec<u64> = along.iter().map(|(_, scale)| scale.length()).collect();
+        let data = write_variable(&file, variable, &shape)?;
+        if !along.is_empty() {
+            data.attach(&along.iter().map(|(_, scale)| scale).collect::<Vec<_>>())?;
+        }
+    }
+    drop(scales);
+    file.close()?;
+    output.publish()
+}
+
+fn write_variable(
+    file: &NewFile,
+    variable: &NetcdfVariable,
+    shape: &[u64],
+) -> Result<NewDataset, TableError> {
+    let (kind, length) = match &variable.values {
+        NetcdfValues::F64(values) => (Kind::F64, values.len()),
+        NetcdfValues::F32(values) => (Kind::F32, values.len()),
+        NetcdfValues::I32(values) => (Kind::I32, values.len()),
+        NetcdfValues::Texts(values) => (Kind::Texts, values.len()),
+    };
+    if length as u64 != shape.iter().product::<u64>() {
+        let accepted = format!("as many as its dimensions {shape:?}");
+        return Err(invalid(&variable.name, format!("{length} values"), &accepted));
+    }
+    let data = file.dataset(&variable.name, kind, shape, None)?;
+    match &variable.values {
+        NetcdfValues::F64(values) => data.write(values)?,
+        NetcdfValues::F32(values) => data.write(values)?,
+        NetcdfValues::I32(values) => data.write(values)?,
+        NetcdfValues::Texts(values) => data.write_texts(values)?,
+    }
+    variable.attributes.iter().try_for_each(|(name, text)| data.attribute(name, text))?;
+    Ok(data)
+}

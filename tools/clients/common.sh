@@ -1,0 +1,18 @@
+# Sourced by the client scripts: an environment of its own for each program, the gonio binary.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+gonio=${GONIO:-target/release/gonio}
+environments=${GONIO_CLIENTS:-target/clients}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# environment NAME PACKAGE…: python of a virtual environment that has the packages.
+environment() {
+  local name=$1; shift
+  local folder=$environments/$name
+  if [ ! -x "$folder/bin/python" ]; then
+    python3 -m venv "$folder"
+    "$folder/bin/pip" install --quiet --disable-pip-version-check "$@"
+  fi
+  python=$folder/bin/python
+}
