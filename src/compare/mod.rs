@@ -94,6 +94,21 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// The curve of `table`, scaled by its scattering cross-section over that of `reference`: what
+    /// is compared is scattered power, so that leaving out an order or the diffraction does not
+    /// change the others.
+    pub fn relative_to(table: &PhaseTable, reference: &PhaseTable, wavelength: f64) -> Self {
+        let mut curve = Self::of(table, wavelength);
+        let middle =
+            |t: &PhaseTable| t.slabs.get(t.slabs.len() / 2).map(|s| s.scattering_cross_section);
+        if let (Some(own), Some(other)) = (middle(table), middle(reference)) {
+            for (_, values) in &mut curve.intensity {
+                values.iter_mut().for_each(|v| *v *= own / other);
+            }
+        }
+        curve
+    }
+
     /// The curve of a table at the wavelength nearest to `wavelength` (metres).
     pub fn of(table: &PhaseTable, wavelength: f64) -> Self {
         let theta: Vec<f64> =
@@ -144,7 +159,7 @@ pub fn measure(case: &Case) -> Result<CaseReport, CompareError> {
     let reference = Curve::of(&case.reference.table, wavelength);
     let mut tests = Vec::new();
     for test in &case.tests {
-        let curve = Curve::of(&test.table, wavelength);
+        let curve = Curve::relative_to(&test.table, &case.reference.table, wavelength);
         let bands = bands(&curve, &reference);
         if bands.is_empty() {
             return Err(CompareError::Disjoint {

@@ -44,7 +44,7 @@ pub fn html(cases: &[Case], reports: &[CaseReport], command_line: &str) -> Strin
             body {
                 h1 { "How far apart?" }
                 p .note {
-                    "Relative error |test − reference| / reference of the phase function by bands of \
+                    "Relative error |test − reference| / reference of the scattered power by bands of \
                      scattering angle. Drag across a chart to zoom, double-click to reset, click a \
                      name below it to switch a curve on or off."
                 }
@@ -67,7 +67,7 @@ fn chart(case: &Case, report: &CaseReport) -> serde_json::Value {
     let mut series = Vec::new();
     let entries = std::iter::once(&case.reference).chain(&case.tests);
     for (k, entry) in entries.enumerate() {
-        let curve = Curve::of(&entry.table, wavelength);
+        let curve = Curve::relative_to(&entry.table, &case.reference.table, wavelength);
         for (which, (polarisation, _)) in curve.intensity.iter().enumerate() {
             let values: Vec<Option<f64>> = reference
                 .theta
@@ -152,7 +152,7 @@ fn polar(case: &Case, report: &CaseReport) -> Markup {
     const SIZE: f64 = 460.0;
     const DECADES: f64 = 6.0;
     let wavelength = report.wavelength_nm * 1e-9;
-    let curve = |table| Curve::of(table, wavelength);
+    let curve = |table| Curve::relative_to(table, &case.reference.table, wavelength);
     let reference = curve(&case.reference.table);
     let radius = |value: f64| {
         let decades = (value.max(1e-12).log10() + 4.0).clamp(0.0, DECADES);
