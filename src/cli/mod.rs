@@ -2,14 +2,22 @@
 //! output, progress bars and `anyhow`.
 
 mod interrupt;
+mod memory;
 #[allow(dead_code)] // used by the commands that draw
 mod plot;
 mod scene_flags;
 mod table;
+mod thinned;
 
 use clap::{Parser, Subcommand};
+use gonio::hdf5::TableError;
 use gonio::medium::MediumError;
+use gonio::plan::PlanError;
+use gonio::render::RenderError;
 use gonio::scene::SceneError;
+use gonio::series::SeriesError;
+use gonio::shape::ShapeError;
+use gonio::simulate::SimulateError;
 use std::process::ExitCode;
 
 /// Wrong input that only the command line knows of; ends the process with exit code 2.
@@ -70,8 +78,22 @@ fn start_threads(threads: Option<u16>) -> anyhow::Result<()> {
 
 /// Wrong input is told from failure by the kind of error anywhere in the chain of causes.
 fn exit_code(error: &anyhow::Error) -> u8 {
-    let wrong_input = error.chain().any(|cause| {
-        cause.is::<UsageError>() || cause.is::<SceneError>() || cause.is::<MediumError>()
-    });
-    if wrong_input { WRONG_INPUT } else { FAILED }
+    if error.chain().any(is_wrong_input) { WRONG_INPUT } else { FAILED }
+}
+
+fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
+    let kinds = cause.is::<UsageError>()
+        || cause.is::<SceneError>()
+        || cause.is::<MediumError>()
+        || cause.is::<ShapeError>()
+        || cause.is::<PlanError>();
+    kinds
+        || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
+        || cause.downcast_ref::<SeriesError>().is_some_and(|e| !matches!(e, SeriesError::OutOfMemory { .. }))
+        || matches!(cause.downcast_ref(), Some(RenderError::Invalid { .. }))
+        || match cause.downcast_ref::<SimulateError>() {
+            Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
+            Some(SimulateError::Series(inner)) => is_wrong_input(inner),
+            _ => false,
+        }
 }
