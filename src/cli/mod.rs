@@ -8,13 +8,18 @@ mod info;
 mod interrupt;
 mod lee;
 mod material;
+mod memory;
+mod plan;
 mod plot;
+mod rays;
+mod rays_drawing;
 mod render;
 mod render_drops;
 mod scatter;
 mod scatter_input;
 mod scene_flags;
 mod table;
+mod thinned;
 mod validate;
 
 use clap::{Parser, Subcommand};
@@ -23,7 +28,11 @@ use gonio::export::ExportError;
 use gonio::hdf5::TableError;
 use gonio::medium::MediumError;
 use gonio::plan::PlanError;
+use gonio::render::RenderError;
 use gonio::scene::SceneError;
+use gonio::series::SeriesError;
+use gonio::shape::ShapeError;
+use gonio::simulate::SimulateError;
 use std::process::ExitCode;
 
 /// Wrong input that only the command line knows of; ends the process with exit code 2.
@@ -56,6 +65,8 @@ enum Command {
     Material(material::MaterialArgs),
     Table(table::TableArgs),
     Scatter(scatter::ScatterArgs),
+    Rays(rays::RaysArgs),
+    Plan(plan::PlanArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
     Export(export::ExportArgs),
@@ -83,6 +94,8 @@ fn run(command: Command) -> anyhow::Result<()> {
         Command::Material(args) => material::run(args),
         Command::Table(args) => table::run(args),
         Command::Scatter(args) => scatter::run(args),
+        Command::Rays(args) => rays::run(args),
+        Command::Plan(args) => plan::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),
         Command::Export(args) => export::run(args),
@@ -106,13 +119,25 @@ fn exit_code(error: &anyhow::Error) -> u8 {
     if let Some(error) = error.downcast_ref::<BatchError>() {
         return error.exit_code();
     }
-    let wrong_input = error.chain().any(|cause| {
-        cause.is::<UsageError>()
-            || cause.is::<SceneError>()
-            || cause.is::<MediumError>()
-            || cause.is::<PlanError>()
-            || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
-            || cause.downcast_ref::<ExportError>().is_some_and(ExportError::is_wrong_input)
-    });
-    if wrong_input { WRONG_INPUT } else { FAILED }
+    if error.chain().any(is_wrong_input) { WRONG_INPUT } else { FAILED }
+}
+
+fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
+    let kinds = cause.is::<UsageError>()
+        || cause.is::<SceneError>()
+        || cause.is::<MediumError>()
+        || cause.is::<ShapeError>()
+        || cause.is::<PlanError>();
+    kinds
+        || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
+        || cause.downcast_ref::<ExportError>().is_some_and(ExportError::is_wrong_input)
+        || cause
+            .downcast_ref::<SeriesError>()
+            .is_some_and(|e| !matches!(e, SeriesError::OutOfMemory { .. }))
+        || matches!(cause.downcast_ref(), Some(RenderError::Invalid { .. }))
+        || match cause.downcast_ref::<SimulateError>() {
+            Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
+            Some(SimulateError::Series(inner)) => is_wrong_input(inner),
+            _ => false,
+        }
 }

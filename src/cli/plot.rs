@@ -8,8 +8,7 @@ use anyhow::{Context, Result, anyhow};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// The family name under which the shipped font (DejaVu Sans) is registered.
@@ -92,22 +91,10 @@ fn paint<F: Figure, B: DrawingBackend>(figure: &F, backend: B) -> Result<()> {
     root.present().map_err(|e| fail(e.to_string()))
 }
 
-/// Writes a file beside its place under a temporary name, syncs it, and renames it.
+/// Writes a file; it appears only when it is complete.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let mut name = path.as_os_str().to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = PathBuf::from(name);
-    let result = (|| {
-        let mut file = std::fs::File::create(&temporary)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        std::fs::rename(&temporary, path)
-    })();
-    if result.is_err() {
-        // The temporary file may not exist; the first error is the one to report.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    result.with_context(|| format!("cannot write {}", path.display()))
+    gonio::pending_file::write_whole(path, bytes)
+        .with_context(|| format!("cannot write {}", path.display()))
 }
 
 #[cfg(test)]

@@ -1,34 +1,179 @@
 //! `gonio table`: from a scene to a tabulated phase function.
 
 use super::UsageError;
+use super::memory;
 use super::scene_flags::SceneFlags;
+use super::thinned::Thinned;
 use clap::Args;
-use std::path::PathBuf;
+use gonio::hdf5::{TableWriter, WriteOptions};
+use gonio::phase_table::Slab;
+use gonio::render::preview;
+use gonio::scene::{Scene, human_bytes};
+use gonio::simulate;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 /// Tabulate the phase function of a scene (the main job)
 #[derive(Args)]
 #[command(after_help = "Example: gonio table data/scenes/raindrop.toml -o raindrop.h5
 
-Without a scene: a raindrop of 0.5 mm, the sun at 20 degrees.")]
+Without a scene: a raindrop of 0.5 mm, the sun at 20 degrees. Every key of a scene file has a flag
+of the same name, which wins over the file.")]
 pub struct TableArgs {
     /// Scene file; without one, the built-in raindrop
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
-    /// HDF5 file to write
+    /// HDF5 file to write; a picture of the same name is put beside it
     #[arg(short, long, value_name = "OUT.h5")]
     output: PathBuf,
-    /// Replace files of the same names
+    /// Replace files of these names
     #[arg(long)]
     overwrite: bool,
     /// No picture beside the table
     #[arg(long)]
     no_preview: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     flags: SceneFlags,
 }
 
+/// What a finished table is judged by.
+#[derive(Default)]
+struct Summary {
+    seconds: f64,
+    /// Largest over the wavelengths.
+    error_estimate: f64,
+    /// Largest over the wavelengths; `None` where the method has no energy budget.
+    energy_residual: Option<f64>,
+}
+
 pub fn run(args: TableArgs) -> anyhow::Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
-    Err(UsageError(format!("{} {scene:?}: the main path is not wired yet", args.output.display()))
-        .into())
+    let preview = preview_path(&args)?;
+    memory::check(&scene)?;
+    let (summary, thinned) = tabulate(&scene, &args)?;
+    if let Some(path) = &preview {
+        preview::write_png(&thinned.into_table(), path)?;
+    }
+    report(&scene, &args, preview.as_deref(), &summary)
+}
+
+/// Where the picture goes, checked before anything is computed.
+fn preview_path(args: &TableArgs) -> Result<Option<PathBuf>, UsageError> {
+    let picture = args.output.with_extension("png");
+    if picture == args.output {
+        let message = "a table is an HDF5 file; give it another ending, such as .h5";
+        return Err(UsageError(format!("--output = {}: {message}", picture.display())));
+    }
+    if args.no_preview {
+        return Ok(None);
+    }
+    if picture.exists() && !args.overwrite {
+        let message = "the picture of the table would replace it; choose another name, or \
+                       --overwrite, or --no-preview";
+        return Err(UsageError(format!("{}: the file exists; {message}", picture.display())));
+    }
+    Ok(Some(picture))
+}
+
+/// Compute and write, wavelength by wavelength.
+fn tabulate(scene: &Scene, args: &TableArgs) -> anyhow::Result<(Summary, Thinned)> {
+    let start = Instant::now();
+    let header = simulate::header(scene, command_line())?;
+    let options = WriteOptions {
+        bit_round: scene.bit_round,
+        overwrite: args.overwrite,
+        ..WriteOptions::default()
+    };
+    let mut writer = TableWriter::create(&args.output, &header, options)?;
+    let mut thinned = Thinned::new(&header);
+    let mut summary = Summary::default();
+    let progress = progress_bar(scene.wavelengths.len());
+    simulate::simulate(scene, |index, slab| -> anyhow::Result<()> {
+        writer.write_slab(index, &slab)?;
+        summary.add(&slab);
+        thinned.add(index, &slab);
+        progress.inc(1);
+        Ok(())
+    })?;
+    progress.finish_and_clear();
+    writer.finish()?;
+    summary.seconds = start.elapsed().as_secs_f64();
+    Ok((summary, thinned))
+}
+
+impl Summary {
+    fn add(&mut self, slab: &Slab) {
+        self.error_estimate = self.error_estimate.max(slab.error_estimate);
+        if let Some(energy) = &slab.energy {
+            let residual = self.energy_residual.unwrap_or(0.0).max(energy.residual.abs());
+            self.energy_residual = Some(residual);
+        }
+    }
+}
+
+/// On a terminal only; it draws on stderr.
+fn progress_bar(wavelengths: usize) -> ProgressBar {
+    let template = "{bar:32} {pos}/{len} wavelengths, {elapsed}, {eta} to go";
+    let style = ProgressStyle::with_template(template);
+    ProgressBar::new(wavelengths as u64)
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn report(
+    scene: &Scene,
+    args: &TableArgs,
+    preview: Option<&Path>,
+    summary: &Summary,
+) -> anyhow::Result<()> {
+    let bytes = std::fs::metadata(&args.output)?.len();
+    if args.json {
+        let report = serde_json::json!({
+            "table": args.output,
+            "preview": preview,
+            "bytes": bytes,
+            "seconds": summary.seconds,
+            "error_estimate": summary.error_estimate,
+            "energy_residual": summary.energy_residual,
+        });
+        println!("{report}");
+        return Ok(());
+    }
+    println!(
+        "{}: {} wavelengths, {} scattering angles, {}",
+        args.output.display(),
+        scene.wavelengths.len(),
+        scene.theta.len(),
+        human_bytes(bytes)
+    );
+    if let Some(preview) = preview {
+        println!("{}: picture", preview.display());
+    }
+    println!(
+        "computed in {:.1} s on {} threads; estimated relative error {:.1e}",
+        summary.seconds,
+        rayon::current_num_threads(),
+        summary.error_estimate
+    );
+    if let Some(residual) = summary.energy_residual {
+        println!("energy that the rays lost count of: {residual:.1e} of what came in");
+    }
+    Ok(())
+}
+
+/// The command line as it could be typed again.
+fn command_line() -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+".contains(c);
+    let quoted = |word: String| {
+        if !word.is_empty() && word.chars().all(plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        }
+    };
+    let rest = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
+    std::iter::once("gonio".to_string()).chain(rest).collect::<Vec<_>>().join(" ")
 }

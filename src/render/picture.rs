@@ -1,8 +1,7 @@
 //! An RGB picture, and how it gets into a file: complete, or not at all.
 
 use super::RenderError;
-use std::fs::{self, File};
-use std::io::{self, Write};
+use crate::pending_file;
 use std::path::Path;
 
 /// 8-bit sRGB, rows from the top.
@@ -46,24 +45,11 @@ impl Picture {
     }
 }
 
-/// Write `bytes` beside `path` under a temporary name, flush them to disk, then rename.
+/// Write `bytes` to `path`; the file appears only when it is complete.
 ///
 /// # Errors
-/// [`RenderError::Write`]; the temporary file is gone then, and `path` is as it was.
+/// [`RenderError::Write`]; `path` is then as it was.
 pub fn write_complete(path: &Path, bytes: &[u8]) -> Result<(), RenderError> {
-    let failed = |source: io::Error| RenderError::Write { path: path.to_owned(), source };
-    let Some(name) = path.file_name() else {
-        return Err(failed(io::Error::new(io::ErrorKind::InvalidInput, "not a file name")));
-    };
-    let mut beside = name.to_owned();
-    beside.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(beside);
-
-    let written = File::create(&temporary)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
-        .and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|error| {
-        let _ = fs::remove_file(&temporary);
-        failed(error)
-    })
+    pending_file::write_whole(path, bytes)
+        .map_err(|source| RenderError::Write { path: path.to_owned(), source })
 }

@@ -127,7 +127,7 @@ impl Scene {
     /// As for [`Scene::load`].
     pub fn from_text(text: SceneText, flags: &SceneFile) -> Result<Scene, SceneError> {
         let merged = text.file.clone().overridden_by(flags);
-        merged.validate().map_err(|error| {
+        merged.validate_in(&text.folder).map_err(|error| {
             error.placed(|key| if flags.has(key) { Place::flag(key) } else { text.place_of(key) })
         })
     }

@@ -4,7 +4,7 @@ use super::error::{Place, SceneError, nearest};
 use super::file::{KEYS, SceneFile};
 use std::io::Read;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::de::DeTable;
 
 /// Scene files are a few hundred bytes; a larger one was not meant to be one.
@@ -15,6 +15,8 @@ const MAX_BYTES: u64 = 4 << 20;
 pub struct SceneText {
     /// Name for messages: the path as the user gave it.
     pub name: String,
+    /// Folder of the file, where the files that it names are looked for.
+    pub folder: PathBuf,
     text: String,
     /// The keys.
     pub file: SceneFile,
@@ -34,7 +36,8 @@ impl SceneText {
             let message = format!("larger than {} MiB, so not a scene file", MAX_BYTES >> 20);
             return Err(unreadable(std::io::Error::other(message)));
         }
-        SceneText::parse(&path.display().to_string(), text)
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Ok(SceneText { folder, ..SceneText::parse(&path.display().to_string(), text)? })
     }
 
     /// Parse the text of a scene; `name` stands for it in messages.
@@ -53,7 +56,7 @@ impl SceneText {
         let document = DeTable::parse(&text).map_err(syntax)?;
         check_keys(name, &text, document.get_ref())?;
         let file = toml::from_str(&text).map_err(syntax)?;
-        Ok(SceneText { name: name.into(), text, file })
+        Ok(SceneText { name: name.into(), folder: PathBuf::new(), text, file })
     }
 
     /// The place of a dotted key in this file.

@@ -8,6 +8,7 @@ use super::{Diffraction, Method, Orders, Particle, Scene};
 use crate::medium::{Medium, MediumSpec};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
+use std::path::Path;
 
 /// Axis ratios beyond these are needles and discs, for which neither rays nor drops are meant.
 const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
@@ -24,13 +25,21 @@ impl SceneFile {
     /// # Errors
     /// The first key that is missing or has a value that is not accepted.
     pub fn validate(&self) -> Result<Scene, SceneError> {
+        self.validate_in(Path::new(""))
+    }
+
+    /// The same; files that the scene names are looked for in `folder`.
+    ///
+    /// # Errors
+    /// As for [`SceneFile::validate`].
+    pub fn validate_in(&self, folder: &Path) -> Result<Scene, SceneError> {
         let resolved = self.with_defaults();
         let (particle, light) = (&resolved.particle, &resolved.light);
         let (table, model) = (&resolved.table, &resolved.model);
         let wavelengths = wavelengths(light.wavelengths_nm.as_ref())?;
         let scene = Scene {
             particle: particle_of(particle)?,
-            medium: medium_of(particle, &wavelengths)?,
+            medium: medium_of(particle, folder, &wavelengths)?,
             sun_elevation: sun_elevation(light.sun_elevation_deg)?,
             wavelengths,
             theta: theta(table.theta_deg.as_ref())?,
@@ -184,14 +193,22 @@ fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
     }
 }
 
-fn medium_of(keys: &ParticleKeys, wavelengths: &[f64]) -> Result<Medium, SceneError> {
+fn medium_of(
+    keys: &ParticleKeys,
+    folder: &Path,
+    wavelengths: &[f64],
+) -> Result<Medium, SceneError> {
     const KEY: &str = "particle.medium";
     let mut spec = keys.medium.clone().unwrap_or_default();
-    if let (MediumSpec::Named(named), Some(celsius)) = (&mut spec, keys.temperature_c) {
-        named.temperature_c = Some(celsius);
+    match (&mut spec, keys.temperature_c) {
+        (MediumSpec::Named(named), Some(celsius)) => named.temperature_c = Some(celsius),
+        (_, Some(celsius)) => {
+            let accepted = "only a medium of the library has a temperature";
+            return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));
+        }
+        (_, None) => {}
     }
-    let here = std::path::Path::new("");
-    let medium = spec.resolve(here).map_err(|source| SceneError::medium(KEY, source))?;
+    let medium = spec.resolve(folder).map_err(|source| SceneError::medium(KEY, source))?;
     for wavelength in wavelengths {
         let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
         if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {

@@ -86,6 +86,21 @@ impl Shape {
         Line::new(self, from, direction).far_root(guess, 2.0 * self.bounding_radius())
     }
 
+    /// Distance of the surface from the centre in a direction (a unit vector's components).
+    pub fn radius_towards(&self, x: f64, y: f64, z: f64) -> f64 {
+        let depth = Vec3 { x, y, z }.dot(self.down);
+        let mut radius = 1.0;
+        for _ in 0..NEWTON_STEPS {
+            let s = self.slope(radius * radius, radius * depth);
+            let step = s.f / (2.0 * radius * s.q + depth * s.z);
+            radius -= step;
+            if step.abs() < 1e-14 {
+                break;
+            }
+        }
+        radius
+    }
+
     /// Where the line `(u, v, t)` along +z first meets the surface: the coordinate `t`.
     /// `None` when it misses.
     pub fn entry<T: Scalar>(&self, u: T, v: T) -> Option<T> {

@@ -97,6 +97,39 @@ impl<'a> Tracer<'a> {
         Some(())
     }
 
+    /// Trace a real ray up to one order, noting where it meets the surface as `(x, z)`.
+    pub fn trace_with_points(
+        &self,
+        u: f64,
+        v: f64,
+        order: u32,
+        points: &mut Vec<[f64; 2]>,
+        visit: impl FnOnce(Exit<f64>),
+    ) -> Option<()> {
+        let mut ray = self.launch(u, v)?;
+        let mut tangent = self.shape.tangent(ray.position);
+        points.push([ray.position.x, ray.position.z]);
+        let event = Event::new(&mut ray, &tangent, &self.interface);
+        if order == 0 {
+            visit(leave(0, event.reflect(&ray)));
+            return Some(());
+        }
+        let mut inside = event.refract(&ray, 1.0 / self.index.re)?;
+        for chord in 1..=order {
+            self.cross(&mut inside, &tangent);
+            points.push([inside.position.x, inside.position.z]);
+            tangent = self.shape.tangent(inside.position);
+            let event = Event::new(&mut inside, &tangent, &self.interface);
+            if chord < order {
+                inside = event.reflect(&inside);
+            } else {
+                inside = event.refract(&inside, self.index.re)?;
+            }
+        }
+        visit(leave(order, inside));
+        Some(())
+    }
+
     /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
     /// `None` when the ray misses the particle.
     pub fn trace<T: Scalar>(

@@ -1,0 +1,212 @@
+//! `gonio rays`: ray paths and deviation of one order in the vertical symmetry plane.
+
+use super::UsageError;
+use super::plot::write_whole;
+use super::rays_drawing::draw;
+use super::scatter_input::{Index, parse_index};
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+use gonio::medium::Medium;
+use gonio::shape::{RaindropModel, Shape};
+use gonio::trace::{Exit, Tracer};
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ShapeKind {
+    Sphere,
+    Raindrop,
+    Spheroid,
+}
+
+/// Ray paths and deviation of one order in the vertical symmetry plane
+#[derive(Args)]
+#[command(
+    after_help = "Example: gonio rays --shape raindrop --radius-mm 1 --sun-elevation-deg 20 \
+--order 2 --count 15 -o rays.svg"
+)]
+pub struct RaysArgs {
+    #[arg(long, value_enum, default_value = "sphere")]
+    shape: ShapeKind,
+    /// Radius of the sphere of equal volume, millimetres
+    #[arg(long, default_value_t = 0.5)]
+    radius_mm: f64,
+    /// Raindrop model
+    #[arg(long, default_value = "beard-chuang-1987")]
+    model: String,
+    /// Vertical over horizontal diameter of a spheroid
+    #[arg(long)]
+    axis_ratio: Option<f64>,
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    sun_elevation_deg: f64,
+    /// Index n or n+k; without it, water at --wavelength-nm
+    #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
+    index: Option<Index>,
+    #[arg(long, default_value_t = 589.3)]
+    wavelength_nm: f64,
+    /// Number of chords inside the drop
+    #[arg(long, default_value_t = 2)]
+    order: u32,
+    /// Number of rays, evenly spaced from the lower to the upper rim
+    #[arg(long, default_value_t = 41)]
+    count: usize,
+    #[arg(long)]
+    json: bool,
+    /// Drawing of the paths
+    #[arg(short, long, value_name = "RAYS.svg")]
+    output: Option<PathBuf>,
+}
+
+/// One ray of the plane.
+pub struct PlaneRay {
+    pub impact: f64,
+    pub exit: Exit<f64>,
+    /// Points where the ray meets the surface, in the frame of the light (along z, upper side x).
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A ray of stationary deviation.
+pub struct Rainbow {
+    pub impact: f64,
+    pub deviation: f64,
+}
+
+/// Most rays accepted.
+const MOST_RAYS: usize = 1_000_000;
+const HIGHEST_ORDER: u32 = 200;
+
+pub fn run(args: RaysArgs) -> Result<()> {
+    let shape = shape(&args)?;
+    let index = match args.index {
+        Some(Index(index)) => index,
+        None => Medium::Water { temperature: 293.15 }.index(args.wavelength_nm * 1e-9)?,
+    };
+    if !(2..=MOST_RAYS).contains(&args.count) {
+        let message = format!("--count {}: 2 to {MOST_RAYS} is accepted", args.count);
+        return Err(UsageError(message).into());
+    }
+    if args.order > HIGHEST_ORDER {
+        let message = format!("--order {}: 0 to {HIGHEST_ORDER} is accepted", args.order);
+        return Err(UsageError(message).into());
+    }
+    let tracer = Tracer::new(&shape, index, 1.0, args.order);
+    let rim = |azimuth: f64| shape.silhouette().radius(azimuth);
+    let (upper, lower) = (rim(0.0), rim(std::f64::consts::PI));
+    let impact = |i: usize| {
+        // the outermost rays miss the rim by a millionth
+        let share = i as f64 / (args.count - 1) as f64;
+        (1.0 - 1e-6) * (-lower + share * (upper + lower))
+    };
+    let rays: Vec<PlaneRay> =
+        (0..args.count).filter_map(|i| trace(&tracer, args.order, impact(i))).collect();
+    let rainbows = rainbows(&tracer, args.order, lower, upper);
+    if let Some(path) = &args.output {
+        write_whole(path, draw(&shape, args.order, &rays, &rainbows).as_bytes())?;
+    }
+    if args.json {
+        println!("{}", to_json(&rays, &rainbows));
+    } else {
+        for bow in &rainbows {
+            let degrees = bow.deviation.to_degrees();
+            println!("rainbow at {degrees:.4}° ({} branch), impact {:.6}", branch(bow), bow.impact);
+        }
+        println!("# impact  deviation_deg  optical_path  focal_lines");
+        for ray in &rays {
+            let (degrees, exit) = (ray.exit.scattering_angle().to_degrees(), &ray.exit);
+            println!("{:9.6} {degrees:10.5} {:12.8} {}", ray.impact, exit.path, exit.focal_lines);
+        }
+    }
+    Ok(())
+}
+
+fn shape(args: &RaysArgs) -> Result<Shape> {
+    let usage = |message: String| anyhow::Error::from(UsageError(message));
+    if !(args.sun_elevation_deg.abs() <= 90.0) {
+        let given = args.sun_elevation_deg;
+        return Err(usage(format!("--sun-elevation-deg {given}: -90 to 90 is accepted")));
+    }
+    if !(args.radius_mm.is_finite() && args.radius_mm > 0.0) {
+        return Err(usage(format!("--radius-mm {}: a number above 0 is accepted", args.radius_mm)));
+    }
+    let sun = args.sun_elevation_deg.to_radians();
+    Ok(match args.shape {
+        ShapeKind::Sphere => Shape::sphere(),
+        ShapeKind::Spheroid => {
+            let ratio = args.axis_ratio.ok_or_else(|| usage("--axis-ratio is missing".into()))?;
+            Shape::spheroid(ratio, sun)?
+        }
+        ShapeKind::Raindrop => {
+            let models = [RaindropModel::BeardChuang1987, RaindropModel::ChuangBeard1990];
+            let model = models.into_iter().find(|m| m.name() == args.model).ok_or_else(|| {
+                usage(format!(
+                    "--model {}: beard-chuang-1987 and chuang-beard-1990 are accepted",
+                    args.model
+                ))
+            })?;
+            Shape::raindrop(args.radius_mm * 1e-3, model, sun)?
+        }
+    })
+}
+
+/// The ray at an impact parameter, if it leaves in this order.
+fn trace(tracer: &Tracer, order: u32, impact: f64) -> Option<PlaneRay> {
+    let mut found = None;
+    let mut points = Vec::new();
+    tracer.trace_with_points(impact, 0.0, order, &mut points, |exit| found = Some(exit))?;
+    found.map(|exit| PlaneRay { impact, exit, points })
+}
+
+/// Stationary points of the deviation: zeros of the in-plane derivative of the exit direction.
+fn rainbows(tracer: &Tracer, order: u32, lower: f64, upper: f64) -> Vec<Rainbow> {
+    const SCAN: usize = 4000;
+    let mut found = Vec::new();
+    // turn of the direction within the plane, per impact
+    let turn = |impact: f64| {
+        let ray = trace(tracer, order, impact)?;
+        let (s, ds) = (ray.exit.direction, ray.exit.ds[0]);
+        Some((s.z * ds.x - s.x * ds.z, ray.exit.scattering_angle()))
+    };
+    let impact = |i: usize| -lower + (i as f64 + 0.5) / SCAN as f64 * (upper + lower);
+    for i in 1..SCAN {
+        let (mut a, mut b) = (impact(i - 1), impact(i));
+        let (Some((mut fa, _)), Some((fb, _))) = (turn(a), turn(b)) else { continue };
+        if fa * fb > 0.0 {
+            continue;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (a + b);
+            let Some((f, _)) = turn(middle) else { break };
+            if f * fa > 0.0 { (a, fa) = (middle, f) } else { b = middle }
+        }
+        if let Some((_, deviation)) = turn(0.5 * (a + b)) {
+            found.push(Rainbow { impact: 0.5 * (a + b), deviation });
+        }
+    }
+    found
+}
+
+fn branch(bow: &Rainbow) -> &'static str {
+    if bow.impact >= 0.0 { "upper" } else { "lower" }
+}
+
+fn to_json(rays: &[PlaneRay], rainbows: &[Rainbow]) -> serde_json::Value {
+    let ray = |r: &PlaneRay| {
+        json!({
+            "impact": r.impact,
+            "deviation_deg": r.exit.scattering_angle().to_degrees(),
+            "optical_path": r.exit.path,
+            "focal_lines": r.exit.focal_lines,
+        })
+    };
+    let bow = |b: &Rainbow| {
+        json!({
+            "impact": b.impact,
+            "deviation_deg": b.deviation.to_degrees(),
+            "branch": branch(b),
+        })
+    };
+    json!({
+        "rays": rays.iter().map(ray).collect::<Vec<_>>(),
+        "rainbows": rainbows.iter().map(bow).collect::<Vec<_>>(),
+    })
+}
