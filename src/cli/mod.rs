@@ -2,8 +2,8 @@
 //! output, progress bars and `anyhow`.
 
 mod batch;
-mod export;
 mod compare;
+mod export;
 mod info;
 mod interrupt;
 mod lee;

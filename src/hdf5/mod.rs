@@ -58,8 +58,8 @@ mod sweep;
 mod writer;
 
 pub use crate::pending_file::remove_all_pending as remove_temporaries;
-pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
 pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
+pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
 pub use reader::{TableReader, read};
 pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
 pub use space::{available_bytes, estimate_bytes};
