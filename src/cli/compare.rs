@@ -11,7 +11,7 @@ use gonio::scene::{
     Choice, Diffraction, Grid, Method, Orders, Particle, Scene, SceneFile, ShapeName,
 };
 use gonio::simulate::{self, SimulateError};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Report of rays against Lorenz–Mie, or of two tables: HTML page and JSON
@@ -75,7 +75,7 @@ pub fn run(args: CompareArgs) -> anyhow::Result<()> {
     }
 }
 
-fn read(path: &PathBuf) -> anyhow::Result<Entry> {
+fn read(path: &Path) -> anyhow::Result<Entry> {
     let table = gonio::hdf5::read(path)?;
     Ok(Entry { name: path.display().to_string(), table, seconds: None })
 }

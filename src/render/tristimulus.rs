@@ -72,8 +72,8 @@ impl Tristimulus {
         let corners = self.grid.corners(theta, phi)?;
         let mut xyz = [0.0; 3];
         for (index, weight) in corners {
-            for c in 0..3 {
-                xyz[c] += weight * f64::from(self.xyz[index][c]);
+            for (sum, &value) in xyz.iter_mut().zip(&self.xyz[index]) {
+                *sum += weight * f64::from(value);
             }
         }
         Some(xyz)
