@@ -12,8 +12,9 @@ const FLOORS: [(u32, &[&str]); 9] = [
     (7, &["lee", "batch"]),
     (6, &["simulate"]),
     (5, &["farfield"]),
-    (4, &["trace"]),
-    (3, &["plan", "series", "hdf5", "compare", "render", "export"]),
+    // The export formats that are netCDF files use the writer of hdf5.
+    (4, &["trace", "export"]),
+    (3, &["plan", "series", "hdf5", "compare", "render"]),
     (2, &["scene", "phase_table"]),
     (1, &["optics", "medium", "shape", "color"]),
     (0, &["math", "pending_file"]),

@@ -121,7 +121,7 @@ pub fn run(args: RaysArgs) -> Result<()> {
 
 fn shape(args: &RaysArgs) -> Result<Shape> {
     let usage = |message: String| anyhow::Error::from(UsageError(message));
-    if !(args.sun_elevation_deg.abs() <= 90.0) {
+    if args.sun_elevation_deg.is_nan() || args.sun_elevation_deg.abs() > 90.0 {
         let given = args.sun_elevation_deg;
         return Err(usage(format!("--sun-elevation-deg {given}: -90 to 90 is accepted")));
     }

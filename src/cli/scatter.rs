@@ -171,7 +171,7 @@ fn job(args: &ScatterArgs) -> Result<Job> {
         ("sun-elevation-deg", args.sun_elevation_deg, 90.0),
         ("azimuth-deg", args.azimuth_deg, 360.0),
     ] {
-        if !(value.abs() <= limit) {
+        if value.is_nan() || value.abs() > limit {
             return Err(usage(format!("--{name} {value}: -{limit} to {limit} is accepted")));
         }
     }

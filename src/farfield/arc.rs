@@ -63,7 +63,7 @@ enum Landmark {
     /// Crossing of the axis between two nodes; unwrapped angle of the axis.
     Axis(f64),
     /// Last ray that leaves: the rim, or the edge of total reflection.
-    End(Node),
+    End(Box<Node>),
 }
 
 /// A meridian with its landmarks found, ready to be cut into segments.
@@ -121,7 +121,7 @@ impl<'a> Arc<'a> {
         if end.alpha > last.alpha {
             self.nodes.push(end);
         }
-        self.landmarks.push(Landmark::End(end));
+        self.landmarks.push(Landmark::End(Box::new(end)));
         Some(())
     }
 
@@ -174,8 +174,7 @@ impl<'a> Arc<'a> {
     pub fn segments(&self, layout: &ArcLayout) -> Option<Vec<Segment>> {
         let mut segments = Vec::new();
         let mut fold_number = 0;
-        let mut plain_count = 0;
-        for pair in self.landmarks.windows(2) {
+        for (plain_count, pair) in self.landmarks.windows(2).enumerate() {
             let before_fold = fold_number;
             if let Landmark::Fold(fold) = &pair[0] {
                 let (dark, reach) = *layout.folds.get(fold_number)?;
@@ -187,7 +186,6 @@ impl<'a> Arc<'a> {
             let to = self.edge(&pair[1], edge(fold_number), layout)?;
             let count = layout.knots.get(plain_count).copied();
             segments.push(self.plain_segment(&pair[0], from, to, count, layout)?);
-            plain_count += 1;
         }
         Some(segments)
     }
@@ -197,7 +195,7 @@ impl<'a> Arc<'a> {
     fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &ArcLayout) -> Option<Edge> {
         Some(match landmark {
             Landmark::Axial => Edge::Alpha(0.0),
-            Landmark::End(node) => Edge::Last(*node),
+            Landmark::End(node) => Edge::Last(node.clone()),
             Landmark::Fold(fold) => {
                 Edge::Angle { angle: fold.angle + fold.lit * reach?, near: fold.alpha }
             }
@@ -269,7 +267,7 @@ impl<'a> Arc<'a> {
     fn find(&self, edge: Edge, is_start: bool) -> Option<Node> {
         match edge {
             Edge::Alpha(alpha) => self.interpolated(alpha),
-            Edge::Last(node) => Some(node),
+            Edge::Last(node) => Some(*node),
             Edge::Angle { angle, near } => self.at_angle(angle, near, is_start),
             Edge::Axis { axis, gap } => {
                 // beyond the crossing where a segment starts, before it where one ends
@@ -325,7 +323,7 @@ impl<'a> Arc<'a> {
                 self.meridian.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
             let rate = (ahead.angle - node.angle) / h;
             let step = (angle - node.angle) / rate;
-            if !(step.abs() < 0.3) {
+            if step.is_nan() || step.abs() >= 0.3 {
                 return None;
             }
             node = self.meridian.node(self.silhouette, node.alpha + step, node.psi, angle)?;
@@ -353,10 +351,10 @@ impl<'a> Arc<'a> {
 }
 
 /// Where a plain segment begins or ends.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Edge {
     Alpha(f64),
-    Last(Node),
+    Last(Box<Node>),
     Angle { angle: f64, near: f64 },
     Axis { axis: f64, gap: f64 },
 }

@@ -183,7 +183,7 @@ impl Fold {
         let (p2, e2) = meridian.aim(angle, path.guess(-q))?;
         path.add(-q, p2);
         let difference = e1.path - e2.path;
-        if !(difference > 0.0) {
+        if difference.is_nan() || difference <= 0.0 {
             return None;
         }
         let z = (0.75 * difference / (q * q * q)).powf(2.0 / 3.0);
@@ -204,7 +204,7 @@ impl Fold {
         let e2: Exit<Complex64> = meridian.exit([p1[0].conj(), p1[1].conj()])?;
         // (W₊ - W₋)/q³ is real and positive
         let ratio = (e1.path - e2.path) / (q * q * q);
-        if !(ratio.re > 0.0) || ratio.im.abs() > 1e-6 * ratio.re {
+        if ratio.is_nan() || ratio.re <= 0.0 || ratio.im.abs() > 1e-6 * ratio.re {
             return None;
         }
         let z = (0.75 * ratio.re).powf(2.0 / 3.0);

@@ -117,7 +117,7 @@ impl<'a> Meridian<'a> {
             let turn = exit.ds[0] * by_psi[0] + exit.ds[1] * by_psi[1];
             let (miss, rate) = (exit.direction.dot(self.across), turn.dot(self.across));
             let step = if self.rotational { 0.0 } else { miss / rate };
-            if !(step.abs() < LARGEST_TURN) {
+            if step.is_nan() || step.abs() >= LARGEST_TURN {
                 return None;
             }
             if step.abs() < 1e-13 || self.rotational || miss.abs() < 1e-15 {
@@ -244,7 +244,7 @@ impl<'a> Meridian<'a> {
             let det = a * d - b * c;
             let step = [(r1 * d - r2 * b) / det, (r2 * a - r1 * c) / det];
             let size = step[0].size() + step[1].size();
-            if !(size < 0.3) {
+            if size.is_nan() || size >= 0.3 {
                 return None;
             }
             if size < 1e-13 || (size < 1e-9 && size > 0.5 * last_step) {

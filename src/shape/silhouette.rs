@@ -31,7 +31,7 @@ impl Silhouette<'_> {
     }
 
     /// Radius and slope from the table.
-    fn from_table(&self, azimuth: f64) -> (f64, f64) {
+    fn tabulated_radius(&self, azimuth: f64) -> (f64, f64) {
         let place = azimuth.rem_euclid(TAU) / TAU * TABLE as f64;
         let i = place as usize;
         let t = place - i as f64;
@@ -53,7 +53,7 @@ impl Silhouette<'_> {
     /// The radius, and its derivative with respect to the azimuth.
     pub fn radius_and_slope(&self, azimuth: f64) -> (f64, f64) {
         if !self.table.is_empty() {
-            return self.from_table(azimuth);
+            return self.tabulated_radius(azimuth);
         }
         let (sin, cos) = azimuth.sin_cos();
         let along = Vec3 { x: cos, y: sin, z: 0.0 };
