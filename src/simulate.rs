@@ -36,7 +36,7 @@ pub enum SimulateError {
 }
 
 /// Rays per side of the grid on which the energy budget is added up.
-const ENERGY_GRID: usize = 160;
+const ENERGY_GRID: usize = 100;
 /// Largest share of light that the energy budget may lose to rounding.
 const ENERGY_TOLERANCE: f64 = 1e-6;
 

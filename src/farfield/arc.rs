@@ -226,10 +226,10 @@ impl<'a> Arc<'a> {
         count: Option<usize>,
         layout: &ArcLayout,
     ) -> Option<Segment> {
+        let ends = matches!(to, Edge::Last(_));
         let (a, b) = (self.find(from, true)?, self.find(to, false)?);
         let length = (b.angle - a.angle).abs();
         let count = count.unwrap_or(4 + (layout.density * length).ceil() as usize);
-        let ends = matches!(to, Edge::Last(_));
         let mut knots = Vec::with_capacity(count + 1);
         let mut focal_lines = a.exit.focal_lines;
         for k in 0..=count {

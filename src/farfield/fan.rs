@@ -62,6 +62,9 @@ const DARK_ZETA: f64 = 7.5;
 /// Longest reach of a pair segment, radians: beyond, its Chebyshev series would need more points.
 const LONGEST_REACH: f64 = 0.3;
 const LONGEST_DARK: f64 = 0.45;
+/// Order times deformation from which meridians no longer correspond across the axis.
+const HOPELESS_TANGLE: f64 = 0.068;
+
 /// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
 /// and with the deformation of the outline.
 fn axis_gaps(tracer: &Tracer, order: u32) -> Vec<f64> {
@@ -71,6 +74,10 @@ fn axis_gaps(tracer: &Tracer, order: u32) -> Vec<f64> {
     let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
     let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
     let tangle = f64::from(order) * (high - low);
+    // Orders up to 3 do not cross the axis again; those that do are hopeless beyond this.
+    if order > 3 && tangle > HOPELESS_TANGLE {
+        return Vec::new();
+    }
     let mut gaps = [3.0, 6.0].map(|f| (f * tangle).clamp(NARROWEST, WIDEST)).to_vec();
     gaps.dedup();
     gaps
@@ -288,7 +295,7 @@ fn trace(
 }
 
 /// How often the reach of pair segments is shortened when a complex ray cannot be found.
-const SHRINKS: usize = 4;
+const SHRINKS: usize = 6;
 
 /// Reach on the dark and lit side of each fold, common to all meridians.
 fn fold_reaches(arcs: &[Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {

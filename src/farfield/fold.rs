@@ -36,6 +36,9 @@ pub struct Fold {
     tangent: [f64; 2],
 }
 
+/// Growth of `|g|²` over its largest lit value that tells of a singularity nearby.
+const RUNAWAY: f64 = 30.0;
+
 /// The two rays of a fold at one δ.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
@@ -156,8 +159,14 @@ impl Fold {
             let q = deltas[k].sqrt();
             values[k] = self.lit_values(meridian, &mut path, deltas[k], q)?;
         }
+        let size = |v: &[f64; PAIR_CHANNELS]| v[2..].iter().map(|g| g * g).sum::<f64>();
+        let largest = values[first_lit..].iter().map(size).fold(0.0, f64::max);
         for k in (0..first_lit).rev() {
             values[k] = self.dark_values(meridian, &mut path, deltas[k])?;
+            // Far behind a caustic near the rim the curved interface has poles: not that far.
+            if !size(&values[k]).is_finite() || size(&values[k]) > RUNAWAY * largest {
+                return None;
+            }
             // Square roots of complex transfers may change sheet on the way: continuity decides.
             if k + 1 < count {
                 let (known, next) = (values[k + 1], &mut values[k]);

@@ -1,0 +1,107 @@
+//! The ray engine against exact solutions of the sphere: single orders against Debye terms, the
+//! whole against Lorenz–Mie. Bounds stand just above what was measured.
+
+use gonio::farfield::FarField;
+use gonio::farfield::fan::FanSettings;
+use gonio::optics::AmplitudeMatrix;
+use gonio::series::debye::{DebyeSeries, Term};
+use gonio::series::lorenz_mie::Sphere;
+use gonio::shape::Shape;
+use gonio::trace::Tracer;
+use num_complex::Complex64;
+
+fn angles(from: f64, to: f64, step: f64) -> Vec<f64> {
+    let count = ((to - from) / step).round() as usize;
+    (0..=count).map(|i| (from + i as f64 * step).to_radians()).collect()
+}
+
+/// Amplitudes of the ray engine on a sphere, all at one azimuth.
+fn rays(
+    x: f64,
+    m: Complex64,
+    orders: &[u32],
+    diffraction: bool,
+    theta: &[f64],
+) -> Vec<AmplitudeMatrix> {
+    let shape = Shape::sphere();
+    let last = orders.iter().copied().max().unwrap();
+    let tracer = Tracer::new(&shape, m, x, last).with_curved_interface(x);
+    let settings = FanSettings { size_parameter: x, orders, tolerance: 0.01, azimuths: &[0.4] };
+    let far_field = FarField::meridians(&tracer, &settings);
+    assert!(far_field.irregular().is_empty());
+    let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, 0.4)).collect();
+    far_field.scatter(&directions, diffraction)
+}
+
+fn l2(found: impl Iterator<Item = Complex64>, exact: impl Iterator<Item = Complex64>) -> f64 {
+    let (mut error, mut norm) = (0.0, 0.0);
+    for (f, e) in found.zip(exact) {
+        error += (f - e).norm_sqr();
+        norm += e.norm_sqr();
+    }
+    (error / norm).sqrt()
+}
+
+#[test]
+fn one_order_against_its_debye_term() {
+    let m = Complex64::new(1.333, 0.0);
+    let cases = [
+        (2u32, 5000.0, 135.5, 150.0, 0.008, 0.016),
+        (2, 1000.0, 134.0, 146.0, 0.025, 0.05),
+        (3, 5000.0, 123.0, 131.0, 0.012, 0.024),
+        (1, 5000.0, 0.0, 40.0, 0.001, 0.002),
+    ];
+    for (p, x, from, to, bound1, bound2) in cases {
+        let theta = angles(from, to, 0.02);
+        let found = rays(x, m, &[p], false, &theta);
+        let exact = DebyeSeries::new(x, m).unwrap().amplitudes(Term::Order(p), &theta);
+        let s1 = l2(found.iter().map(|s| s.s1), exact.iter().map(|e| e.0));
+        let s2 = l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1));
+        println!("p = {p}, x = {x}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %", 100.0 * s1, 100.0 * s2);
+        assert!(s1 <= bound1 && s2 <= bound2, "p = {p}, x = {x}: S1 {s1}, S2 {s2}");
+    }
+}
+
+#[test]
+fn all_orders_against_lorenz_mie() {
+    let m = Complex64::new(1.3314, 0.0);
+    let orders: Vec<u32> = (0..=7).collect();
+    let cases = [
+        (5000.0, 10.0, 165.0, 0.025),
+        (5000.0, 128.0, 137.0, 0.05),
+        (5000.0, 120.0, 150.0, 0.028),
+        (12000.0, 120.0, 150.0, 0.019),
+    ];
+    for (x, from, to, bound) in cases {
+        let theta = angles(from, to, 0.01);
+        let found = rays(x, m, &orders, true, &theta);
+        let exact = Sphere::new(x, m).unwrap().amplitudes(&theta);
+        let real = |v: f64| Complex64::new(v, 0.0);
+        let error = l2(
+            found.iter().map(|s| real(2.0 * s.s11())),
+            exact.iter().map(|e| real(e.0.norm_sqr() + e.1.norm_sqr())),
+        );
+        println!("x = {x}, {from}–{to}°: {:.3} %", 100.0 * error);
+        assert!(error <= bound, "x = {x}, {from}–{to}: {error}");
+    }
+}
+
+/// Far behind the caustics of high orders nothing may run away, down to small particles.
+#[test]
+fn dark_sides_stay_dark() {
+    let m = Complex64::new(1.333, 0.0);
+    let orders: Vec<u32> = (0..=7).collect();
+    for x in [20.0, 60.0, 200.0, 628.0, 2000.0] {
+        let theta = angles(0.5, 179.5, 0.1);
+        let found = rays(x, m, &orders, true, &theta);
+        let exact = Sphere::new(x, m).unwrap().amplitudes(&theta);
+        let total = |f: &dyn Fn(usize) -> f64| -> f64 {
+            (0..theta.len()).map(|i| f(i) * theta[i].sin()).sum()
+        };
+        let found_power = total(&|i| 2.0 * found[i].s11());
+        let exact_power = total(&|i| exact[i].0.norm_sqr() + exact[i].1.norm_sqr());
+        let ratio = found_power / exact_power;
+        println!("x = {x}: scattered power {ratio:.4} of the exact one");
+        assert!((0.8..1.25).contains(&ratio), "x = {x}: {ratio}");
+    }
+}
