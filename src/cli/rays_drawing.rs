@@ -34,8 +34,7 @@ pub fn draw(shape: &Shape, order: u32, rays: &[PlaneRay], rainbows: &[Rainbow]) 
             (axes(shape))
             text x="12" y=(side + 22.0) { "order p = " (order) ": " (caption) }
             text x="12" y=(side + 44.0) fill="#555" {
-                "light from the left, upper side up; one division is one radius of equal volume (a); "
-                "red: bright ray directions, grey: inside the drop"
+                "a: radius of equal volume. Rays: yellow incident, grey inside, red leaving; upper side up."
             }
         }
     };
