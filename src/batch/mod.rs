@@ -2,7 +2,7 @@
 //!
 //! A sweep file is a scene file in which any value under `[particle]`, the sun's elevation under
 //! `[light]` or any value under `[model]` may be a list or a range. [`BatchPlan`] turns it into one
-//! line per table; each line is all that a machine needs to compute that table ([`shard`]), and its
+//! line per table; each line is all that a machine needs to compute that table (`shard`), and its
 //! id is a hash of the physics and of the file format, so that equal work has equal names. Shards
 //! are complete files or none, which makes resuming the same as running again; [`merge`] puts them
 //! into one file in the order of the plan, whatever the order in which they were computed.

@@ -169,7 +169,7 @@ fn trapezoid(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// sasktran2's scatterer database over (radius_um, wavelength_nm, legendre), 2l+1 included. Its Q
-/// has the opposite sense of ours, so b1 and b2 are negated (Rayleigh scattering has b1[2] > 0).
+/// has the opposite sense of ours, so b1 and b2 are negated (Rayleigh scattering has `b1[2]` > 0).
 /// `tables` are of one sweep of radii, ascending, each with its average; a single table has no
 /// dimension of radii, for the program interpolates along every dimension that is there.
 pub fn sasktran2(tables: &[(&PhaseTable, &Averaged)], moments: usize) -> NetcdfFile {

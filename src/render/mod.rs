@@ -1,8 +1,8 @@
 //! Pictures of phase tables: a preview of the table itself, and rainbows in the sky.
 //!
 //! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s. Stages of a rainbow:
-//! table → XYZ per direction ([`tristimulus`]) → mixture of drops → what each pixel of the
-//! [`camera`] sees of the sky, averaged over the sun's disc ([`sky`]) → sRGB → PNG.
+//! table → XYZ per direction (`tristimulus`) → mixture of drops → what each pixel of the
+//! `camera` sees of the sky, averaged over the sun's disc (`sky`) → sRGB → PNG.
 
 pub mod camera;
 mod color_diagram;
