@@ -48,22 +48,22 @@ pub struct ScatterArgs {
     #[arg(long, value_enum, default_value = "sphere")]
     shape: ShapeKind,
     /// Radius of the sphere of equal volume, micrometres
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     radius_um: Option<f64>,
     /// Diameter of the sphere of equal volume, millimetres
     #[arg(long, conflicts_with = "radius_um")]
     diameter_mm: Option<f64>,
     /// Wavelength in vacuum, nanometres
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     wavelength_nm: Option<f64>,
     /// Size parameter 2πa/λ of the sphere of equal volume
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     size_parameter: Option<f64>,
     /// Index n or n+k; without it, water at the wavelength
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
     index: Option<Index>,
     /// Vertical over horizontal diameter of a spheroid
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     axis_ratio: Option<f64>,
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     sun_elevation_deg: f64,
