@@ -32,8 +32,9 @@ fn built_in_scene_is_the_documented_one() {
 #[test]
 fn all_shipped_scenes_are_valid() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes");
-    let paths: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    // `bows/` holds pictures for `gonio render`: another kind of file, checked by its own reader
+    let paths: Vec<_> = entries.filter(|path| path.is_file()).collect();
     assert!(paths.len() >= 3, "{paths:?}");
     for path in paths {
         Scene::load(&path, &SceneFile::default()).unwrap();
