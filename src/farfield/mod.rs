@@ -15,6 +15,7 @@ pub mod gaussian_filter;
 pub mod interference;
 pub mod meridian;
 pub mod patch;
+pub mod rim;
 pub mod sweep;
 pub mod tabulate;
 
