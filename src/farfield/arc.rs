@@ -159,11 +159,14 @@ impl<'a> Arc<'a> {
         self.interpolated(sin.asin())
     }
 
-    /// Farthest exit angle from that of the ray at `sin α = start`, among rays beyond it.
-    pub fn reach_beyond(&self, start: f64) -> Option<f64> {
+    /// Exit angles relative to that of the ray at `sin α = start`: the farthest in the direction in
+    /// which rays go from there to `sin α = full`, and that of the last ray.
+    pub fn reaches(&self, start: f64, full: f64) -> Option<[f64; 2]> {
         let first = self.ray_at(start)?;
+        let sense = (self.ray_at(full)?.angle - first.angle).signum();
         let beyond = self.nodes.iter().filter(|n| n.alpha > first.alpha);
-        beyond.map(|n| n.angle - first.angle).max_by(|a, b| a.abs().total_cmp(&b.abs()))
+        let farthest = beyond.map(|n| sense * (n.angle - first.angle)).fold(0.0, f64::max);
+        Some([sense * farthest, self.last.angle - first.angle])
     }
 
     /// The last ray that still leaves, beyond a node.

@@ -41,7 +41,7 @@ pub struct RimLayout {
 }
 
 /// Lowest order served.
-pub const FIRST_ORDER: u32 = 4;
+pub const FIRST_ORDER: u32 = 2;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave.
@@ -110,23 +110,43 @@ impl RimLayout {
     /// meet.
     pub fn spread_knots(&mut self, arcs: &[Arc], index: f64, tangle: f64, x: f64) -> Option<()> {
         const DARK_ZETA: f64 = 7.5;
+        const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
         const NEAREST_AXIS: f64 = 0.03;
+        const FARTHEST_PENUMBRA: f64 = 0.5;
         let order = arcs.first()?.meridian().order;
-        let reaches: Vec<f64> =
-            arcs.iter().map(|a| a.reach_beyond(self.start)).collect::<Option<_>>()?;
-        let longest = reaches.iter().fold(0.0f64, |l, r| if r.abs() > l.abs() { *r } else { l });
-        let shortest = reaches.iter().map(|r| r * longest.signum()).fold(f64::MAX, f64::min);
+        let reaches: Vec<[f64; 2]> =
+            arcs.iter().map(|a| a.reaches(self.start, self.full)).collect::<Option<_>>()?;
+        let sense = reaches[0][0].signum();
+        let bow_side = reaches.iter().map(|r| sense * r[0]);
+        let (shortest, longest) =
+            bow_side.fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(r), h.max(r)));
         let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
-        let beyond = dark + longest.abs() - shortest;
-        self.knots = knots(longest, beyond, 1.0 - self.start, 0.3 * tangle, x);
-        let far_from_axis = |arc: &Arc| {
+        let end = longest + dark + (longest - shortest);
+        // beyond the last ray its penumbra dies away with x^{1/3}
+        let last = reaches.iter().map(|r| sense * r[1]).fold(f64::MAX, f64::min);
+        let penumbra = (PENUMBRA * x.cbrt().recip()).min(FARTHEST_PENUMBRA);
+        let begin = (last - penumbra).min(0.0);
+        let bow = bow(index, order)?;
+        let zone = (0.5 * x * deviation_slope(index, order, bow).1).cbrt().recip();
+        let spare = 0.3 * tangle + zone + x.powf(-2.0 / 3.0);
+        self.knots = knots([begin, longest, end], sense, [self.start, bow], spare, x);
+        // waves from all azimuths meet at the axis
+        for arc in arcs {
             let first = arc.ray_at(self.start)?.angle;
-            let (from, to) = (first, first + self.knots.last()?[0]);
-            let (low, high) = (from.min(to) - NEAREST_AXIS, from.max(to) + NEAREST_AXIS);
-            ((low / PI).floor() == (high / PI).floor()).then_some(())
-        };
-        arcs.iter().try_for_each(far_from_axis)
+            let near = |offset: f64| ((first + offset) / PI).round() * PI - first;
+            let axes = [near(0.0), near(0.0) + PI, near(0.0) - PI];
+            if axes[0].abs() < NEAREST_AXIS {
+                return None;
+            }
+            self.knots.retain(|k| {
+                axes.iter().all(|axis| {
+                    let (from, to) = (axis.abs() - NEAREST_AXIS, axis.signum() * k[0]);
+                    to < from
+                })
+            });
+        }
+        (self.knots.len() > 4).then_some(())
     }
 }
 
@@ -137,21 +157,28 @@ fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
     h.cbrt() * x.powf(-2.0 / 3.0)
 }
 
-/// Knots over `length` radians from the ray at the start and `beyond`, close enough for waves whose
-/// impact lies between that of the inner ray there and the rim, give or take `spare`.
-fn knots(length: f64, beyond: f64, depth: f64, spare: f64, x: f64) -> Vec<[f64; 2]> {
-    let sign = length.signum();
-    let (length, mut at) = (length.abs(), 0.0);
-    let spare = spare + 3.0 * x.powf(-2.0 / 3.0);
+/// Knots from `begin` to `end` (radians towards the bow, which is at `bow_at`, from the ray at the
+/// start of the taper), close enough for waves whose impact lies between that of the inner ray and
+/// the rim, give or take `spare`. `start` and `bow` are the impacts of those rays.
+fn knots(
+    [begin, bow_at, end]: [f64; 3],
+    sense: f64,
+    [start, bow]: [f64; 2],
+    spare: f64,
+    x: f64,
+) -> Vec<[f64; 2]> {
+    let mut at = begin;
     let mut knots = Vec::new();
     loop {
-        // the inner ray's impact runs from `depth` inside the rim to about the rim
-        let share = (at / length).min(1.0);
-        knots.push([sign * at, depth * (0.5 + 0.5 * share)]);
-        if at >= length + beyond {
+        // towards the bow the inner ray's angle runs like a square
+        let share = (at / bow_at).clamp(0.0, 1.0);
+        let inner = bow - (bow - start) * (1.0 - share).sqrt();
+        let half_band = 0.5 * (1.0 - inner);
+        knots.push([sense * at, inner + half_band - start]);
+        if at >= end {
             return knots;
         }
-        at += TAU / (KNOTS_PER_PERIOD * x * (0.5 * depth * (1.0 - share) + spare));
+        at += TAU / (KNOTS_PER_PERIOD * x * (half_band + spare));
     }
 }
 
@@ -181,7 +208,7 @@ pub fn rim_wave(
     let meridian = arc.meridian();
     let first = arc.ray_at(layout.start)?;
     let rays = Rays::through(arc, layout)?;
-    let length = layout.knots.last()?[0].abs();
+    let length = (layout.knots.last()?[0] - layout.knots.first()?[0]).abs();
     let integrand = rays.integrand(layout, meridian.tracer.index(), size_parameter, length)?;
     let ahead = arc.ray_at(layout.start + 0.01 * (layout.full - layout.start))?;
     let impact = |node: &Node| node.exit.reference.dot(meridian.frame(node.angle).1);
@@ -192,8 +219,8 @@ pub fn rim_wave(
     let scale = (size_parameter / TAU).sqrt();
     // towards the rim impacts grow in size
     let sense = impact(&first).signum();
-    let mut path = first.exit.path;
-    let mut before = [0.0, layout.knots.first()?[1]];
+    let mut before = *layout.knots.first()?;
+    let mut path = first.exit.path - (impact(&first) + sense * before[1]) * before[0];
     let mut knots = Vec::with_capacity(layout.knots.len());
     for &[offset, depth] in &layout.knots {
         let angle = first.angle + offset;
