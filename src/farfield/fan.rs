@@ -139,7 +139,7 @@ impl OrderFan {
         let centre = axial_ray(tracer, order);
         let azimuths = azimuths(tracer, settings);
         let places = azimuths.places(settings);
-        let density = 60.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
+        let density = 32.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let tangle = tangle(tracer, order);
         let x = settings.size_parameter;
         let with_rim = axis_gaps(order, tangle, true)

@@ -41,7 +41,7 @@ pub struct RimLayout {
 }
 
 /// Lowest order served.
-pub const FIRST_ORDER: u32 = 2;
+pub const FIRST_ORDER: u32 = 3;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave.
@@ -370,6 +370,7 @@ impl Rays {
             let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
             integrand.push(impact, path, matrix.map(|m| m * factor));
         }
+        integrand.fill_lanes();
         Some(integrand)
     }
 
@@ -483,52 +484,48 @@ impl Integrand {
         }
     }
 
+    /// Samples of no weight, up to a whole number of lanes.
+    fn fill_lanes(&mut self) {
+        while !self.impact.len().is_multiple_of(LANES) {
+            self.push(0.0, 0.0, [Complex64::default(); 4]);
+        }
+    }
+
     /// `Σ F exp(ix(L - βϑ - W))`, and the same times β.
     fn sum(&self, angle: f64, reference: f64, x: f64) -> Sums {
-        let mut found = [0.0; 16];
-        sum(&self.impact, &self.path, &self.parts, angle, reference, x, &mut found);
+        let found = sum(self, angle, reference, x);
         let at = |k: usize| Complex64::new(found[k], found[k + 1]);
         [std::array::from_fn(|e| at(2 * e)), std::array::from_fn(|e| at(8 + 2 * e))]
     }
 }
 
+/// Samples handled side by side.
+const LANES: usize = 8;
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
-fn sum(
-    impact: &[f64],
-    path: &[f64],
-    parts: &[Vec<f64>; 8],
-    angle: f64,
-    reference: f64,
-    x: f64,
-    found: &mut [f64; 16],
-) {
-    const LANES: usize = 16;
+fn sum(integrand: &Integrand, angle: f64, reference: f64, x: f64) -> [f64; 16] {
     let per_turn = x / TAU;
-    for start in (0..impact.len()).step_by(LANES) {
-        let count = LANES.min(impact.len() - start);
-        let (mut sin, mut cos, mut weight) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for k in 0..count {
-            let beta = impact[start + k];
-            let turns = per_turn * (path[start + k] - beta * angle - reference);
+    let mut sums = [[0.0; LANES]; 16];
+    let impacts: &[[f64; LANES]] = integrand.impact.as_chunks().0;
+    let paths: &[[f64; LANES]] = integrand.path.as_chunks().0;
+    let parts: [&[[f64; LANES]]; 8] = std::array::from_fn(|c| integrand.parts[c].as_chunks().0);
+    for (block, (impact, path)) in impacts.iter().zip(paths).enumerate() {
+        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let turns = per_turn * (path[k] - impact[k] * angle - reference);
             (sin[k], cos[k]) = sin_cos_turns(turns);
-            weight[k] = beta;
         }
         for element in 0..4 {
-            let re = &parts[2 * element][start..start + count];
-            let im = &parts[2 * element + 1][start..start + count];
-            let mut sums = [0.0; 4];
-            for k in 0..count {
+            let (re, im) = (&parts[2 * element][block], &parts[2 * element + 1][block]);
+            for k in 0..LANES {
                 let a = re[k] * cos[k] - im[k] * sin[k];
                 let b = re[k] * sin[k] + im[k] * cos[k];
-                sums[0] += a;
-                sums[1] += b;
-                sums[2] += a * weight[k];
-                sums[3] += b * weight[k];
+                sums[2 * element][k] += a;
+                sums[2 * element + 1][k] += b;
+                sums[8 + 2 * element][k] += a * impact[k];
+                sums[9 + 2 * element][k] += b * impact[k];
             }
-            found[2 * element] += sums[0];
-            found[2 * element + 1] += sums[1];
-            found[8 + 2 * element] += sums[2];
-            found[9 + 2 * element] += sums[3];
         }
     }
+    sums.map(|lanes| lanes.iter().sum())
 }
