@@ -74,7 +74,7 @@ fn column_rate(shape: &Shape, index: Complex64, size: f64) {
     let theta: Vec<f64> = (0..=1800).map(|i| (f64::from(i) * 0.1).to_radians()).collect();
     let start = Instant::now();
     for i in 0..50 {
-        black_box(far_field.column(&theta, 0.06 * f64::from(i), false));
+        black_box(far_field.columns(&theta, &[0.06 * f64::from(i)], false));
     }
     let samples = 50.0 * theta.len() as f64;
     println!("samples by sweeping, one core: {:.3e} /s", samples / start.elapsed().as_secs_f64());

@@ -14,8 +14,9 @@ use super::meridian::{Meridian, axial_ray};
 use super::sweep::{Side, Sums, add_segment};
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
-use num_complex::Complex64;
+use multiversion::multiversion;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// All meridians of one wavelength.
@@ -103,23 +104,27 @@ impl Fan {
         Self { size_parameter: settings.size_parameter, orders, irregular }
     }
 
-    /// Amplitudes at samples θ (ascending) of one azimuth in [0, π], without forward diffraction.
-    pub fn column(&self, theta: &[f64], azimuth: f64) -> Vec<AmplitudeMatrix> {
-        let mut sums = Sums::new(theta.len());
+    /// Amplitudes at samples θ (ascending) of some azimuths in [0, π], without forward diffraction.
+    ///
+    /// Segment by segment for all azimuths, so that what they are interpolated from stays in cache.
+    pub fn columns(&self, theta: &[f64], azimuths: &[f64]) -> Vec<Vec<AmplitudeMatrix>> {
+        let x = self.size_parameter;
+        let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(theta.len())).collect();
         for fan in &self.orders {
-            for segment in fan.segments(azimuth, false) {
-                add_segment(&mut sums, theta, &segment, Side::Near, self.size_parameter);
-            }
-            // the plane of φ + π is the mirror image of that of π - φ
-            for segment in fan.segments(PI - azimuth, true) {
-                add_segment(&mut sums, theta, &segment, Side::Far, self.size_parameter);
+            for number in 0..fan.meridians[0].len() {
+                for (sums, &azimuth) in sums.iter_mut().zip(azimuths) {
+                    let segment = fan.segment(number, azimuth);
+                    add_segment(sums, theta, &segment, Side::Near, x);
+                }
+                for (sums, &azimuth) in sums.iter_mut().zip(azimuths) {
+                    // the plane of φ + π is the mirror image of that of π - φ
+                    let mut segment = fan.segment(number, PI - azimuth).into_owned();
+                    mirror(&mut segment);
+                    add_segment(sums, theta, &segment, Side::Far, x);
+                }
             }
         }
-        let at =
-            |k: usize, i: usize| Complex64::new(sums.parts[2 * k][i], sums.parts[2 * k + 1][i]);
-        (0..theta.len())
-            .map(|i| AmplitudeMatrix { s1: at(0, i), s2: at(1, i), s3: at(2, i), s4: at(3, i) })
-            .collect()
+        sums.into_iter().map(|sums| sums.amplitudes()).collect()
     }
 
     /// How many rays more than two may coalesce near each sample: 3 within an axis gap, else 0.
@@ -174,47 +179,49 @@ impl OrderFan {
         self.meridians.first().is_some_and(|m| m.iter().any(ends))
     }
 
-    /// Segments at an azimuth in [0, π]; `mirrored` for the image across the vertical plane.
-    fn segments(&self, azimuth: f64, mirrored: bool) -> Vec<Segment> {
-        let mut segments = match &self.azimuths {
-            Azimuths::Any => self.meridians[0].clone(),
+    /// One segment at an azimuth in [0, π].
+    fn segment(&self, number: usize, azimuth: f64) -> Cow<'_, Segment> {
+        match &self.azimuths {
+            Azimuths::Any => Cow::Borrowed(&self.meridians[0][number]),
             Azimuths::Listed(list) => {
                 let k = list.partition_point(|&a| a < azimuth - 1e-9).min(list.len() - 1);
-                self.meridians[k].clone()
+                Cow::Borrowed(&self.meridians[k][number])
             }
-            Azimuths::Even => self.interpolated(azimuth),
-        };
-        if mirrored {
-            segments.iter_mut().for_each(mirror);
+            Azimuths::Even => Cow::Owned(self.interpolated(number, azimuth)),
         }
-        segments
     }
 
-    /// Segments between the traced azimuths, by a polynomial through eight of them.
-    fn interpolated(&self, azimuth: f64) -> Vec<Segment> {
+    /// A segment between the traced azimuths, by a polynomial through eight of them.
+    fn interpolated(&self, number: usize, azimuth: f64) -> Segment {
         let steps = (self.meridians.len() - 1) as f64;
         let place = azimuth / PI * steps;
         let first = place.floor() as i64 - (STENCIL as i64 / 2 - 1);
-        let weights = lagrange_weights(place - first as f64);
-        let template = &self.meridians[0];
-        (0..template.len())
-            .map(|s| {
-                let kind = template[s].kind;
-                let parity = parity(&kind);
-                let mut knots = vec![[0.0; CHANNELS]; template[s].knots.len()];
-                for (k, &weight) in weights.iter().enumerate() {
-                    let (source, mirrored) = fold_index(first + k as i64, self.meridians.len());
-                    let weights: Knot =
-                        std::array::from_fn(|c| if mirrored { parity[c] * weight } else { weight });
-                    for (to, from) in knots.iter_mut().zip(&self.meridians[source][s].knots) {
-                        for c in 0..CHANNELS {
-                            to[c] += weights[c] * from[c];
-                        }
-                    }
-                }
-                Segment { kind, knots }
-            })
-            .collect()
+        let shares = lagrange_weights(place - first as f64);
+        let template = &self.meridians[0][number];
+        let parity = parity(&template.kind);
+        let mut weights = [[0.0; CHANNELS]; STENCIL];
+        let mut sources: [&[Knot]; STENCIL] = [&[]; STENCIL];
+        for (k, &share) in shares.iter().enumerate() {
+            let (source, mirrored) = fold_index(first + k as i64, self.meridians.len());
+            sources[k] = &self.meridians[source][number].knots;
+            weights[k] = if mirrored { parity.map(|p| p * share) } else { [share; CHANNELS] };
+        }
+        let mut knots = vec![[0.0; CHANNELS]; template.knots.len()];
+        blend(&mut knots, &sources, &weights);
+        Segment { kind: template.kind, knots }
+    }
+}
+
+/// Weighted sums of knots, channel by channel.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
+fn blend(knots: &mut [Knot], sources: &[&[Knot]; STENCIL], weights: &[Knot; STENCIL]) {
+    for (i, knot) in knots.iter_mut().enumerate() {
+        for (source, weights) in sources.iter().zip(weights) {
+            let Some(from) = source.get(i) else { continue };
+            for c in 0..CHANNELS {
+                knot[c] += weights[c] * from[c];
+            }
+        }
     }
 }
 

@@ -23,7 +23,8 @@ pub struct ForwardDiffraction {
     area: f64,
 }
 
-/// Number of points on the outline; the line integral serves while `x sin θ` is below `LINE_UP_TO`.
+/// Number of points on the outline (a power of 2); the line integral serves while `x sin θ` is below
+/// `LINE_UP_TO`.
 const POINTS: usize = 1024;
 const LINE_UP_TO: f64 = 100.0;
 /// Angle in units of `x^(-1/3)` at which edge waves fade.
@@ -79,12 +80,36 @@ impl ForwardDiffraction {
         self.amplitude(size_parameter, direction) / (1.0 + penumbra.powi(2)).powi(2)
     }
 
+    /// Scattering angle beyond which edge waves are so faint that the rays hide them.
+    pub fn farthest(&self, size_parameter: f64) -> f64 {
+        // amplitude of the edge wave with its fade against one of the rays, which is of the order x
+        const FAINT: f64 = 1e-4;
+        let envelope = |theta: f64| {
+            let penumbra = theta * size_parameter.cbrt() / FADE;
+            (size_parameter * theta.powi(3)).sqrt().recip() / (1.0 + penumbra.powi(2)).powi(2)
+        };
+        const STEPS: u32 = 180;
+        let angles = (1..STEPS).map(|k| PI * f64::from(k) / f64::from(STEPS));
+        angles.into_iter().find(|&theta| envelope(theta) < FAINT).unwrap_or(PI)
+    }
+
+    /// Difference between the largest and the smallest radius of the outline.
+    pub fn deformation(&self) -> f64 {
+        let radii = self.points.iter().map(|p| p[0].hypot(p[1]));
+        let (low, high) = radii.fold((f64::MAX, 0f64), |(l, h), r| (l.min(r), h.max(r)));
+        high - low
+    }
+
     /// `∬ exp(-iq·r) dA` as an integral along the outline; the divergence theorem with a vector
     /// potential along `r` avoids any division by `q`.
     fn line_integral(&self, qx: f64, qy: f64) -> Complex64 {
-        let step = TAU / POINTS as f64;
+        // on a smooth periodic curve the sum converges faster than any power past one point a radian
+        let needed = (1.2 * qx.hypot(qy) + 64.0) as usize;
+        let stride = (POINTS / needed.next_power_of_two()).max(1);
+        let step = TAU / POINTS as f64 * stride as f64;
         let mut sum = Complex64::default();
-        for (p, t) in self.points.iter().zip(&self.tangents) {
+        let outline = self.points.iter().zip(&self.tangents).step_by(stride);
+        for (p, t) in outline {
             let phase = qx * p[0] + qy * p[1];
             // ∫₀¹ t exp(-i t φ) dt, times the flux r × dr of the ray from the centre
             sum += ramp(phase) * ((p[0] * t[1] - p[1] * t[0]) * step);
@@ -125,12 +150,19 @@ impl ForwardDiffraction {
 
 /// `2 J₁(z)/z`.
 fn circle(z: f64) -> f64 {
-    if z < 1e-4 { 1.0 - z * z / 8.0 } else { 2.0 * libm::j1(z) / z }
+    if z < 1e-4 { 1.0 - z * z / 8.0 } else { 2.0 * hankel1(z).re / z }
 }
 
 /// `H₁⁽¹⁾(z) = J₁ + i Y₁`.
 fn hankel1(z: f64) -> Complex64 {
-    Complex64::new(libm::j1(z), libm::y1(z))
+    const LARGE: f64 = 30.0;
+    if z < LARGE {
+        return Complex64::new(libm::j1(z), libm::y1(z));
+    }
+    // Abramowitz & Stegun 9.2.7–10: the first terms left out are below 1e-8
+    let w = 1.0 / z;
+    let (p, q) = (1.0 + w * w * (0.1171875 - 0.144195557 * w * w), w * (0.375 - 0.1025390625 * w * w));
+    Complex64::from_polar((2.0 * w / PI).sqrt(), z - 0.75 * PI) * Complex64::new(p, q)
 }
 
 /// `∫₀¹ t exp(-i t φ) dt`.

@@ -9,6 +9,8 @@
 use super::direction::Direction;
 use super::forward_diffraction::ForwardDiffraction;
 use crate::optics::AmplitudeMatrix;
+use num_complex::Complex64;
+use std::f64::consts::PI;
 
 /// Lobes about the axis within which the peak is treated; beyond, point values serve.
 const LOBES: f64 = 20.0;
@@ -26,7 +28,7 @@ pub struct ForwardCells {
 impl ForwardCells {
     /// The cells of the θ axis (ascending) that lie within the peak.
     pub fn new(theta: &[f64], size_parameter: f64) -> Self {
-        let reach = LOBES * std::f64::consts::PI / size_parameter;
+        let reach = LOBES * PI / size_parameter;
         let last = theta.len() - 1;
         let cell = |i: usize| {
             let low = if i == 0 { theta[0] } else { 0.5 * (theta[i - 1] + theta[i]) };
@@ -42,10 +44,25 @@ impl ForwardCells {
         Self { cells: Vec::new(), size_parameter: 0.0 }
     }
 
+    /// The diffracted wave in all cells at an azimuth.
+    fn samples(
+        &self,
+        peak: &ForwardDiffraction,
+        theta: &[f64],
+        phi: f64,
+        mean: bool,
+    ) -> Vec<PeakSample> {
+        let sample = |i: usize| PeakSample {
+            amplitude: peak.amplitude(self.size_parameter, &Direction::new(theta[i], phi)),
+            mean: if mean && self.is_coarse(i) { self.mean_intensity(peak, i, phi) } else { 0.0 },
+        };
+        (0..self.cells.len()).map(sample).collect()
+    }
+
     /// Mean of `|S_diffraction|²` over cell `i` at an azimuth.
-    pub fn mean_intensity(&self, peak: &ForwardDiffraction, i: usize, azimuth: f64) -> f64 {
+    fn mean_intensity(&self, peak: &ForwardDiffraction, i: usize, azimuth: f64) -> f64 {
         let (low, high) = self.cells[i];
-        let lobes = (high - low) * self.size_parameter / std::f64::consts::PI;
+        let lobes = (high - low) * self.size_parameter / PI;
         let count = (lobes * SAMPLES_PER_LOBE).ceil().clamp(4.0, 4096.0) as usize;
         let (mut sum, mut weights) = (0.0, 0.0);
         for k in 0..count {
@@ -61,12 +78,64 @@ impl ForwardCells {
     /// Whether cell `i` is too coarse to be represented by its centre.
     pub fn is_coarse(&self, i: usize) -> bool {
         let (low, high) = self.cells[i];
-        (high - low) * self.size_parameter > 0.25 * std::f64::consts::PI
+        (high - low) * self.size_parameter > 0.25 * PI
+    }
+}
+
+/// The diffracted wave in the cells of the peak, by azimuth: computed at a few azimuths of a
+/// half-turn (the vertical plane is a mirror) and interpolated, since it varies slowly.
+pub struct PeakRows {
+    /// By azimuth `jπ/last`, by cell: amplitude at the sample, mean intensity over the cell.
+    rows: Vec<Vec<PeakSample>>,
+}
+
+/// The diffracted wave in one cell: amplitude at its sample, mean intensity over the cell (0 where
+/// the cell is fine enough for the sample to stand for it).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PeakSample {
+    pub amplitude: Complex64,
+    pub mean: f64,
+}
+
+/// Neighbours in the interpolation over azimuth.
+const STENCIL: i64 = 6;
+
+impl PeakRows {
+    /// Compute the rows for samples `theta`; the outline's deformation sets how many azimuths.
+    pub fn new(peak: &ForwardDiffraction, cells: &ForwardCells, theta: &[f64], mean: bool) -> Self {
+        let reach = LOBES * PI * peak.deformation();
+        let last = if reach < 1e-9 { 0 } else { 32 + (1.5 * reach).ceil() as usize };
+        let azimuths = (0..=last).map(|j| PI * j as f64 / last.max(1) as f64);
+        let rows = azimuths.map(|phi| cells.samples(peak, theta, phi, mean)).collect();
+        Self { rows }
+    }
+
+    /// Samples of all cells at an azimuth in [0, π].
+    pub fn at(&self, azimuth: f64) -> Vec<PeakSample> {
+        let last = self.rows.len() as i64 - 1;
+        if last == 0 {
+            return self.rows[0].clone();
+        }
+        let place = azimuth / PI * last as f64;
+        let first = place.floor() as i64 - (STENCIL / 2 - 1);
+        let mut found = vec![PeakSample::default(); self.rows[0].len()];
+        for k in 0..STENCIL {
+            let x = place - first as f64;
+            let others = (0..STENCIL).filter(|&j| j != k);
+            let weight: f64 = others.map(|j| (x - j as f64) / (k - j) as f64).product();
+            let folded = (first + k).rem_euclid(2 * last);
+            let row = &self.rows[folded.min(2 * last - folded) as usize];
+            for (sum, sample) in found.iter_mut().zip(row) {
+                sum.amplitude += sample.amplitude * weight;
+                sum.mean += sample.mean * weight;
+            }
+        }
+        found
     }
 }
 
 /// Add the diffraction amplitude, the same for both polarisations.
-pub fn add(amplitude: &mut AmplitudeMatrix, diffraction: num_complex::Complex64) {
+pub fn add(amplitude: &mut AmplitudeMatrix, diffraction: Complex64) {
     amplitude.s1 += diffraction;
     amplitude.s2 += diffraction;
 }

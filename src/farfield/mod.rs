@@ -92,35 +92,30 @@ impl<'a> FarField<'a> {
         &self.silhouette
     }
 
-    /// All scattering angles at one azimuth, without forward diffraction.
-    pub fn column(&self, theta: &[f64], phi: f64, incoherent: bool) -> Column {
+    /// All scattering angles at each of some azimuths in [0, π], without forward diffraction.
+    pub fn columns(&self, theta: &[f64], azimuths: &[f64], incoherent: bool) -> Vec<Column> {
         match &self.source {
-            Source::Patches(sphere, interference) => {
-                let mut column = Column {
-                    amplitude: Vec::with_capacity(theta.len()),
-                    incoherent: Vec::new(),
-                    rays: Vec::with_capacity(theta.len()),
-                    caustic_order: Vec::new(),
-                };
-                for &t in theta {
-                    let found = interference.collect(sphere, &Direction::new(t, phi));
-                    column.amplitude.push(found.amplitude);
-                    if incoherent {
-                        column.incoherent.push(found.incoherent);
-                    }
-                    column.rays.push(found.rays_by_order);
-                }
-                column
-            }
+            Source::Patches(sphere, interference) => azimuths
+                .iter()
+                .map(|&phi| patch_column(sphere, interference, theta, phi, incoherent))
+                .collect(),
             Source::Meridians(fan, patches) => {
-                let mut amplitude = fan.column(theta, phi);
-                if let Some((sphere, interference)) = patches {
-                    for (sum, &t) in amplitude.iter_mut().zip(theta) {
-                        *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
-                    }
-                }
                 let caustic_order = fan.caustic_order(theta);
-                Column { amplitude, incoherent: Vec::new(), rays: Vec::new(), caustic_order }
+                let columns = fan.columns(theta, azimuths).into_iter().zip(azimuths);
+                let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
+                    if let Some((sphere, interference)) = patches {
+                        for (sum, &t) in amplitude.iter_mut().zip(theta) {
+                            *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
+                        }
+                    }
+                    Column {
+                        amplitude,
+                        incoherent: Vec::new(),
+                        rays: Vec::new(),
+                        caustic_order: caustic_order.clone(),
+                    }
+                };
+                columns.map(finish).collect()
             }
         }
     }
@@ -153,6 +148,31 @@ impl<'a> FarField<'a> {
     }
 }
 
+/// A column collected patch by patch.
+fn patch_column(
+    sphere: &CollectingSphere,
+    interference: &Interference,
+    theta: &[f64],
+    phi: f64,
+    incoherent: bool,
+) -> Column {
+    let mut column = Column {
+        amplitude: Vec::with_capacity(theta.len()),
+        incoherent: Vec::new(),
+        rays: Vec::with_capacity(theta.len()),
+        caustic_order: Vec::new(),
+    };
+    for &t in theta {
+        let found = interference.collect(sphere, &Direction::new(t, phi));
+        column.amplitude.push(found.amplitude);
+        if incoherent {
+            column.incoherent.push(found.incoherent);
+        }
+        column.rays.push(found.rays_by_order);
+    }
+    column
+}
+
 /// Rings of the patch grid for irregular orders at a tolerance of 1 %.
 const FALLBACK_RINGS: f64 = 90.0;
 
@@ -171,7 +191,7 @@ fn scatter_by_columns(fan: &Fan, directions: &[(f64, f64)]) -> Vec<AmplitudeMatr
     let mut amplitudes = vec![AmplitudeMatrix::default(); directions.len()];
     for group in order.chunk_by(|a, b| key(a).0 == key(b).0) {
         let theta: Vec<f64> = group.iter().map(|&i| directions[i].0).collect();
-        let column = fan.column(&theta, key(&group[0]).0);
+        let column = fan.columns(&theta, &[key(&group[0]).0]).swap_remove(0);
         for (&i, mut amplitude) in group.iter().zip(column) {
             if folded(directions[i].1).1 {
                 (amplitude.s3, amplitude.s4) = (-amplitude.s3, -amplitude.s4);

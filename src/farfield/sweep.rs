@@ -7,7 +7,9 @@
 use super::arc::{Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE};
 use crate::math::airy;
 use crate::math::phase::sin_cos_turns;
+use crate::optics::AmplitudeMatrix;
 use multiversion::multiversion;
+use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
 /// Amplitudes of one column: real and imaginary parts of S1 … S4 by sample.
@@ -19,6 +21,14 @@ pub struct Sums {
 impl Sums {
     pub fn new(samples: usize) -> Self {
         Self { parts: std::array::from_fn(|_| vec![0.0; samples]) }
+    }
+
+    /// As amplitude matrices.
+    pub fn amplitudes(&self) -> Vec<AmplitudeMatrix> {
+        let at = |k: usize, i: usize| Complex64::new(self.parts[2 * k][i], self.parts[2 * k + 1][i]);
+        (0..self.parts[0].len())
+            .map(|i| AmplitudeMatrix { s1: at(0, i), s2: at(1, i), s3: at(2, i), s4: at(3, i) })
+            .collect()
     }
 }
 
@@ -64,8 +74,7 @@ fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f6
     // θ of an unwrapped angle
     let to_theta = |angle: f64| sign * (angle - turn);
     let knots = &segment.knots;
-    let slopes: Option<Vec<Knot>> = None;
-    let mut slopes = slopes;
+    let mut slopes: Option<Vec<Knot>> = None;
     let axial = matches!(segment.kind, Kind::Plain { from_axis: true, .. });
     for k in 1..knots.len() {
         let (a, b) = (to_theta(knots[k - 1][0]), to_theta(knots[k][0]));
@@ -163,20 +172,22 @@ fn wave_slopes(knot: &Knot) -> Knot {
 /// Slopes of all channels at all knots, from parabolas through neighbours.
 fn amplitude_slopes(knots: &[Knot]) -> Vec<Knot> {
     let last = knots.len() - 1;
+    if last < 2 {
+        let h = 1.0 / (knots[last][0] - knots[0][0]);
+        return vec![std::array::from_fn(|c| (knots[last][c] - knots[0][c]) * h); last + 1];
+    }
     (0..=last)
         .map(|k| {
-            let middle = k.clamp(1, last.max(2) - 1).min(last);
-            let (i, j, l) = (middle.saturating_sub(1), middle, (middle + 1).min(last));
-            let (xi, xj, xl, x) = (knots[i][0], knots[j][0], knots[l][0], knots[k][0]);
-            std::array::from_fn(|c| {
-                let (yi, yj, yl) = (knots[i][c], knots[j][c], knots[l][c]);
-                if l == j || i == j {
-                    return (knots[last][c] - knots[0][c]) / (knots[last][0] - knots[0][0]);
-                }
-                yi * (2.0 * x - xj - xl) / ((xi - xj) * (xi - xl))
-                    + yj * (2.0 * x - xi - xl) / ((xj - xi) * (xj - xl))
-                    + yl * (2.0 * x - xi - xj) / ((xl - xi) * (xl - xj))
-            })
+            let j = k.clamp(1, last - 1);
+            let [a, b, c] = [&knots[j - 1], &knots[j], &knots[j + 1]];
+            let x = knots[k][0];
+            let (ab, ac, bc) = (a[0] - b[0], a[0] - c[0], b[0] - c[0]);
+            let weights = [
+                (2.0 * x - b[0] - c[0]) / (ab * ac),
+                -(2.0 * x - a[0] - c[0]) / (ab * bc),
+                (2.0 * x - a[0] - b[0]) / (ac * bc),
+            ];
+            std::array::from_fn(|i| weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i])
         })
         .collect()
 }

@@ -1,7 +1,7 @@
 //! From columns of amplitudes to the values of one slab, normalised, with the forward peak in it.
 
 use super::forward_diffraction::ForwardDiffraction;
-use super::forward_peak::{self, ForwardCells};
+use super::forward_peak::{self, ForwardCells, PeakRows, PeakSample};
 use super::{Direction, FarField, gaussian_filter};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, ForwardPeak, Quantity};
@@ -65,6 +65,17 @@ struct ForwardSample {
     coarse: bool,
 }
 
+/// Forward diffraction, prepared for one slab.
+struct Peak<'a> {
+    rows: PeakRows,
+    diffraction: &'a ForwardDiffraction,
+    /// Scattering angle beyond which it is not seen.
+    farthest: f64,
+}
+
+/// Columns computed together, so that what they share is read once.
+const COLUMNS_AT_ONCE: usize = 8;
+
 impl Tabulator<'_> {
     /// Fill a slab. `computed` are azimuths in [0, π]; `places` tells, for every azimuth of the
     /// table, which of them serves it and whether as mirror image.
@@ -76,8 +87,24 @@ impl Tabulator<'_> {
         axes: &Axes,
     ) -> Values {
         let cells = self.forward_cells();
-        let lines: Vec<Line> =
-            computed.par_iter().map(|&phi| self.line(far_field, phi, &cells)).collect();
+        let peak = self.peak().map(|peak| Peak {
+            rows: PeakRows::new(
+                peak,
+                &cells,
+                self.theta,
+                self.forward_peak == ForwardPeak::CellAverage,
+            ),
+            farthest: peak.farthest(self.size_parameter),
+            diffraction: peak,
+        });
+        let lines: Vec<Line> = computed
+            .par_chunks(COLUMNS_AT_ONCE)
+            .flat_map_iter(|phis| {
+                let columns = far_field.columns(self.theta, phis, !self.interference);
+                let lines = phis.iter().zip(columns);
+                lines.map(|(&phi, column)| self.line(column, phi, &cells, peak.as_ref()))
+            })
+            .collect();
         let weights = axes.solid_angle();
         let elements = self.quantity.elements();
         let mut values = Array3::<f32>::zeros((elements, axes.theta.len(), axes.phi.len()));
@@ -108,16 +135,28 @@ impl Tabulator<'_> {
         1.0 / (self.size_parameter * self.size_parameter * area)
     }
 
-    fn line(&self, far_field: &FarField, phi: f64, cells: &ForwardCells) -> Line {
-        let mut column = far_field.column(self.theta, phi, !self.interference);
+    /// Forward diffraction, where it is in the table.
+    fn peak(&self) -> Option<&ForwardDiffraction> {
+        self.diffraction.filter(|_| self.forward_peak != ForwardPeak::Separate)
+    }
+
+    fn line(
+        &self,
+        mut column: Column,
+        phi: f64,
+        cells: &ForwardCells,
+        peak: Option<&Peak>,
+    ) -> Line {
         let scale = self.scale();
-        let forward: Vec<ForwardSample> =
-            (0..cells.cells.len()).map(|i| self.forward_sample(&column, cells, i, phi)).collect();
-        if let Some(peak) = self.diffraction.filter(|_| self.forward_peak != ForwardPeak::Separate)
-        {
-            for i in forward.len()..self.theta.len() {
+        let mut forward = Vec::new();
+        if let Some(peak) = peak {
+            let samples = peak.rows.at(phi);
+            let sample = |(i, s)| self.forward_sample(&column, cells, i, s);
+            forward = samples.into_iter().enumerate().map(sample).collect();
+            let end = self.theta.partition_point(|&theta| theta < peak.farthest);
+            for i in forward.len()..end {
                 let direction = Direction::new(self.theta[i], phi);
-                let tail = peak.tail(self.size_parameter, &direction);
+                let tail = peak.diffraction.tail(self.size_parameter, &direction);
                 forward_peak::add(&mut column.amplitude[i], tail);
             }
         }
@@ -156,18 +195,12 @@ impl Tabulator<'_> {
         column: &Column,
         cells: &ForwardCells,
         i: usize,
-        phi: f64,
+        peak: PeakSample,
     ) -> ForwardSample {
         let rest_amplitude = column.amplitude[i];
         let rest = if self.interference { rest_amplitude.mueller() } else { column.incoherent[i] };
-        let direction = Direction::new(self.theta[i], phi);
-        let Some(peak) = self.diffraction else {
-            unreachable!("forward cells exist only with diffraction")
-        };
         let coarse = self.forward_peak == ForwardPeak::CellAverage && cells.is_coarse(i);
-        let mean = if coarse { cells.mean_intensity(peak, i, phi) } else { 0.0 };
-        let amplitude = peak.amplitude(self.size_parameter, &direction);
-        ForwardSample { rest, rest_amplitude, amplitude, mean, coarse }
+        ForwardSample { rest, rest_amplitude, amplitude: peak.amplitude, mean: peak.mean, coarse }
     }
 
     /// Mueller matrix of a forward sample with the diffracted power scaled by `factor`.
