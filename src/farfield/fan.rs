@@ -17,7 +17,7 @@ use crate::trace::Tracer;
 use multiversion::multiversion;
 use rayon::prelude::*;
 use std::borrow::Cow;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// All meridians of one wavelength.
 pub struct Fan {
@@ -30,6 +30,8 @@ pub struct Fan {
 /// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
 struct OrderFan {
     meridians: Vec<Vec<Segment>>,
+    /// Lowest and highest angle of each segment over all meridians, with some room.
+    spans: Vec<(f64, f64)>,
     axis_gap: f64,
     azimuths: Azimuths,
 }
@@ -112,11 +114,13 @@ impl Fan {
         let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(theta.len())).collect();
         for fan in &self.orders {
             for number in 0..fan.meridians[0].len() {
-                for (sums, &azimuth) in sums.iter_mut().zip(azimuths) {
+                let near = fan.meets(number, theta, Side::Near);
+                for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| near) {
                     let segment = fan.segment(number, azimuth);
                     add_segment(sums, theta, &segment, Side::Near, x);
                 }
-                for (sums, &azimuth) in sums.iter_mut().zip(azimuths) {
+                let far = fan.meets(number, theta, Side::Far);
+                for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| far) {
                     // the plane of φ + π is the mirror image of that of π - φ
                     let mut segment = fan.segment(number, PI - azimuth).into_owned();
                     mirror(&mut segment);
@@ -163,7 +167,8 @@ impl OrderFan {
                 rim,
             };
             let meridians = trace(tracer, order, centre, &places, layout, tangle)?;
-            Some(Self { meridians, axis_gap, azimuths: azimuths.clone() })
+            let spans = spans(&meridians);
+            Some(Self { meridians, spans, axis_gap, azimuths: azimuths.clone() })
         })
     }
 
@@ -177,6 +182,15 @@ impl OrderFan {
         let ends =
             |s: &Segment| s.knots.first().is_some_and(near) || s.knots.last().is_some_and(near);
         self.meridians.first().is_some_and(|m| m.iter().any(ends))
+    }
+
+    /// Whether a segment reaches any of the samples on one side of its plane, at any azimuth.
+    fn meets(&self, number: usize, theta: &[f64], side: Side) -> bool {
+        let (low, high) = self.spans[number];
+        let (Some(&first), Some(&last)) = (theta.first(), theta.last()) else { return false };
+        let (from, to) = if side == Side::Near { (first, last) } else { (-last, -first) };
+        // some whole number of turns m with [from, to] + 2πm in reach
+        ((high - from) / TAU).floor() >= ((low - to) / TAU).ceil()
     }
 
     /// One segment at an azimuth in [0, π].
@@ -210,6 +224,18 @@ impl OrderFan {
         blend(&mut knots, &sources, &weights);
         Segment { kind: template.kind, knots }
     }
+}
+
+/// Lowest and highest angle of each segment over all meridians, with room for interpolation.
+fn spans(meridians: &[Vec<Segment>]) -> Vec<(f64, f64)> {
+    const ROOM: f64 = 1e-3;
+    let count = meridians.first().map_or(0, Vec::len);
+    let span = |s: usize| {
+        let ends = meridians.iter().flat_map(|m| m[s].knots.first().into_iter().chain(m[s].knots.last()));
+        let angles = ends.map(|knot| knot[0]);
+        angles.fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(a - ROOM), h.max(a + ROOM)))
+    };
+    (0..count).map(span).collect()
 }
 
 /// Weighted sums of knots, channel by channel.

@@ -44,8 +44,10 @@ pub struct RimLayout {
 pub const FIRST_ORDER: u32 = 3;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
-/// Fresnel zones of a ray within the taper: fewer would leave a step in the wave.
+/// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
+/// served is ten times as strong as the others.
 const FRESNEL_ZONES: f64 = 14.0;
+const FRESNEL_ZONES_HIGH: f64 = 10.0;
 /// Wave zones `x^{-2/3}` beyond the last ray at which tunnelling has ended.
 const TUNNEL: f64 = 4.0;
 /// Real rays through which the polynomials pass.
@@ -98,7 +100,8 @@ pub fn taper(
     let zone = |b: f64| {
         (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip()
     };
-    let start = (full - FRESNEL_ZONES * zone(full)).max(0.5 * full);
+    let zones = if order == FIRST_ORDER { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
+    let start = (full - zones * zone(full)).max(0.5 * full);
     let start = start.max(clear_of_axis(index, order, b, 1.25 * axis_gap)?);
     let full = full.max(start + FEWEST_ZONES * zone(full));
     (full < b - FEWEST_WIDTHS * airy).then_some((start, full))

@@ -69,6 +69,7 @@ pub fn add_segment(
 }
 
 /// One pass over the knots, for one whole number of turns.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
 fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f64, x: f64) {
     let sign = if side == Side::Near { 1.0 } else { -1.0 };
     // θ of an unwrapped angle
@@ -105,7 +106,8 @@ fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f6
             Kind::Wave => knots.iter().map(wave_slopes).collect(),
             _ => amplitude_slopes(knots),
         });
-        let piece = Piece::new(&knots[k - 1], &knots[k], &slopes[k - 1], &slopes[k]);
+        let channels = if matches!(segment.kind, Kind::Pair { .. }) { PAIR } else { SINGLE };
+        let piece = Piece::new(&knots[k - 1], &knots[k], &slopes[k - 1], &slopes[k], channels);
         let mut at = begin;
         while at < end {
             let count = BLOCK.min(end - at);
@@ -135,28 +137,36 @@ struct Piece {
     inverse: f64,
     path: [f64; 4],
     zeta: [f64; 4],
-    amplitude: [[f64; 4]; 18],
+    amplitude: [[f64; 4]; PAIR],
 }
 
+/// Channels from the first amplitude of a plain knot on: S1 … S4; or ζ̂ and its slope, g₀ and g₁.
+const SINGLE: usize = 8;
+const PAIR: usize = 18;
+
 impl Piece {
-    fn new(a: &Knot, b: &Knot, sa: &Knot, sb: &Knot) -> Self {
+    #[inline(always)]
+    fn new(a: &Knot, b: &Knot, sa: &Knot, sb: &Knot, channels: usize) -> Self {
         let h = b[0] - a[0];
         let hermite = |v0: f64, s0: f64, v1: f64, s1: f64| {
             let (s0, s1, d) = (s0 * h, s1 * h, v1 - v0);
             [v0, s0, 3.0 * d - 2.0 * s0 - s1, s0 + s1 - 2.0 * d]
         };
+        let mut amplitude = [[0.0; 4]; PAIR];
+        for (k, cubic) in amplitude.iter_mut().enumerate().take(channels) {
+            let c = k + PLAIN_AMPLITUDE;
+            *cubic = hermite(a[c], sa[c], b[c], sb[c]);
+        }
         Self {
             start: a[0],
             inverse: 1.0 / h,
             path: hermite(a[1], a[2], b[1], b[2]),
             zeta: hermite(a[3], a[4], b[3], b[4]),
-            amplitude: std::array::from_fn(|c| {
-                let c = (c + PLAIN_AMPLITUDE).min(super::arc::CHANNELS - 1);
-                hermite(a[c], sa[c], b[c], sb[c])
-            }),
+            amplitude,
         }
     }
 
+    #[inline(always)]
     fn pair_amplitude(&self, channel: usize) -> &[f64; 4] {
         &self.amplitude[channel + PAIR_AMPLITUDE - PLAIN_AMPLITUDE]
     }
@@ -170,6 +180,7 @@ fn wave_slopes(knot: &Knot) -> Knot {
 }
 
 /// Slopes of all channels at all knots, from parabolas through neighbours.
+#[inline(always)]
 fn amplitude_slopes(knots: &[Knot]) -> Vec<Knot> {
     let last = knots.len() - 1;
     if last < 2 {
@@ -198,7 +209,7 @@ fn cubic(c: &[f64; 4], t: f64) -> f64 {
 }
 
 /// One ray per sample.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
+#[inline(always)]
 fn plain(sums: &mut Sums, at: usize, t: &[f64], piece: &Piece, x: f64, turns: f64) {
     let mut sin = [0.0; BLOCK];
     let mut cos = [0.0; BLOCK];
@@ -221,7 +232,7 @@ fn plain(sums: &mut Sums, at: usize, t: &[f64], piece: &Piece, x: f64, turns: f6
 }
 
 /// The uniform Airy formula for two rays.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
+#[inline(always)]
 fn pair(sums: &mut Sums, at: usize, t: &[f64], piece: &Piece, x: f64, turns: f64) {
     let sixth = x.powf(1.0 / 6.0);
     let two_thirds = sixth.powi(4);
