@@ -110,7 +110,13 @@ fn raindrop() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-fn report(azimuth: f64, span: (f64, f64), theta: &[f64], found: &[AmplitudeMatrix], waves: &[Wave]) {
+fn report(
+    azimuth: f64,
+    span: (f64, f64),
+    theta: &[f64],
+    found: &[AmplitudeMatrix],
+    waves: &[Wave],
+) {
     let all = |f: fn(&AmplitudeMatrix) -> Complex64| {
         l2(found.iter().map(f), waves.iter().map(|w| f(&w.amplitude)))
     };
@@ -122,10 +128,8 @@ fn report(azimuth: f64, span: (f64, f64), theta: &[f64], found: &[AmplitudeMatri
         square.sqrt() / whole
     };
     let real = |v: f64| Complex64::new(v, 0.0);
-    let s11 = l2(
-        found.iter().map(|s| real(s.s11())),
-        waves.iter().map(|w| real(w.amplitude.s11())),
-    );
+    let s11 =
+        l2(found.iter().map(|s| real(s.s11())), waves.iter().map(|w| real(w.amplitude.s11())));
     let largest = waves.iter().map(|w| w.amplitude.s11()).fold(0.0, f64::max);
     let worst = found
         .iter()
