@@ -40,7 +40,8 @@ pub struct Wave {
     pub amplitude: AmplitudeMatrix,
     /// Path `C` of the reference surface, in radii.
     pub surface: f64,
-    /// Smallest distance (radii) of the surface from a focal line of the rays in the window.
+    /// Smallest distance (radii) of the surface from a focal line of the rays in the window;
+    /// below zero: minus the number of rays (of a coarse grid) on the other side of a focal line.
     pub clearance: f64,
     /// Rays summed.
     pub rays: usize,
@@ -105,7 +106,14 @@ impl HuygensFresnel {
         let best = |direction: &Direction| {
             let near: Vec<&Source> =
                 rays.iter().filter(|r| self.weight(r, direction.unit) > 0.0).collect();
+            // A surface that focal lines cross is no choice while there is another.
             let clearance = |place: f64| {
+                let turned =
+                    near.iter().filter(|ray| ray.cross_section(place - ray.path) < 0.0).count();
+                let mixed = turned.min(near.len() - turned);
+                if mixed > 0 {
+                    return -(mixed as f64);
+                }
                 near.iter().map(|ray| ray.clearance(place - ray.path)).fold(f64::INFINITY, f64::min)
             };
             let middle = near.iter().map(|r| r.path).sum::<f64>() / near.len().max(1) as f64;
@@ -183,8 +191,7 @@ impl HuygensFresnel {
             return;
         }
         let place = surface - ray.path;
-        let [c0, c1, c2] = ray.section;
-        let size = weight * ray.share * (c0 + place * (c1 + place * c2)).abs().sqrt();
+        let size = weight * ray.share * ray.cross_section(place).abs().sqrt();
         let ahead = u32::from(ray.focal[0] > place) + u32::from(ray.focal[1] > place);
         let lines = f64::from(ray.focal_lines) - f64::from(ahead);
         let path = surface - direction.dot(ray.reference + ray.direction * place);
@@ -251,6 +258,13 @@ impl Source {
         }
     }
 
+    /// `det Q_τ`.
+    fn cross_section(&self, place: f64) -> f64 {
+        let [c0, c1, c2] = self.section;
+        c0 + place * (c1 + place * c2)
+    }
+
+    /// Distance from the nearest focal line.
     fn clearance(&self, place: f64) -> f64 {
         self.focal.iter().map(|focal| (place - focal).abs()).fold(f64::INFINITY, f64::min)
     }
