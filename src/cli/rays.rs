@@ -150,10 +150,9 @@ fn shape(args: &RaysArgs) -> Result<Shape> {
 
 /// The ray at an impact parameter, if it leaves in this order.
 fn trace(tracer: &Tracer, order: u32, impact: f64) -> Option<PlaneRay> {
-    let mut found = None;
     let mut points = Vec::new();
-    tracer.trace_with_points(impact, 0.0, order, &mut points, |exit| found = Some(exit))?;
-    found.map(|exit| PlaneRay { impact, exit, points })
+    let exit = tracer.trace_with_points(impact, 0.0, order, &mut points)?;
+    Some(PlaneRay { impact, exit, points })
 }
 
 /// Stationary points of the deviation: zeros of the in-plane derivative of the exit direction.

@@ -7,16 +7,20 @@
 
 use super::fold::{Fold, PAIR_CHANNELS};
 use super::meridian::{GRAZING, Meridian, Node};
+use super::rim::{RimLayout, rim_wave};
 use crate::math::chebyshev::Chebyshev;
 use crate::shape::Silhouette;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Numbers at a knot: angle, then
 /// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`;
-/// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element).
+/// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element);
+/// wave: reference path, its slope, S1 … S4 against it, their slopes by angle.
 pub const CHANNELS: usize = 21;
 /// First channel of amplitudes in a plain knot (S3 and S4 follow at +4).
 pub const PLAIN_AMPLITUDE: usize = 3;
+/// First channel of the slopes of amplitudes in the knot of a wave.
+pub const WAVE_SLOPE: usize = 11;
 /// First channel of g₀ in a pair knot; g₁ follows at +8.
 pub const PAIR_AMPLITUDE: usize = 5;
 
@@ -30,6 +34,8 @@ pub enum Kind {
     Plain { focal_lines: u32, from_axis: bool },
     /// Two rays; sum of their focal lines.
     Pair { focal_lines: u32 },
+    /// A wave that is no sum of rays, all phases in its amplitudes.
+    Wave,
 }
 
 /// A stretch of an arc.
@@ -53,6 +59,9 @@ pub struct ArcLayout {
     pub density: f64,
     /// Knots of each segment; empty while the layout is being found.
     pub knots: Vec<usize>,
+    pub size_parameter: f64,
+    /// Where an integral takes over from rays near the rim.
+    pub rim: Option<RimLayout>,
 }
 
 /// Landmarks along a meridian.
@@ -72,6 +81,7 @@ pub struct Arc<'a> {
     silhouette: &'a Silhouette<'a>,
     nodes: Vec<Node>,
     landmarks: Vec<Landmark>,
+    last: Node,
 }
 
 /// Chebyshev points of a pair segment.
@@ -91,19 +101,27 @@ impl<'a> Arc<'a> {
         if nodes.len() < 8 {
             return None;
         }
-        let mut arc = Self { meridian, silhouette, nodes, landmarks: vec![Landmark::Axial] };
-        arc.find_landmarks(FRAC_PI_2 / layout.scan as f64)?;
+        let last = *nodes.last()?;
+        let mut arc = Self { meridian, silhouette, nodes, landmarks: vec![Landmark::Axial], last };
+        let limit = layout.rim.as_ref().map_or(FRAC_PI_2, |rim| rim.full.asin());
+        arc.find_landmarks(FRAC_PI_2 / layout.scan as f64, limit)?;
         Some(arc)
     }
 
-    fn find_landmarks(&mut self, step: f64) -> Option<()> {
+    /// Find the landmarks of rays launched up to `limit` (in α), and the last ray of all.
+    fn find_landmarks(&mut self, step: f64, limit: f64) -> Option<()> {
         let start = self.meridian.axis_angle();
         for k in 1..self.nodes.len() {
             let (a, b) = (self.nodes[k - 1], self.nodes[k]);
             let half_turn = |n: &Node| ((n.angle - start) / PI).floor();
             let before = half_turn(&a);
             let crosses = before != half_turn(&b) && k > 1;
-            if crosses {
+            if b.alpha > limit {
+                if b.alpha - a.alpha > 1.5 * step {
+                    self.nodes.truncate(k);
+                    break;
+                }
+            } else if crosses {
                 // the multiple of π between the two angles
                 let axis = start + PI * before.max(half_turn(&b));
                 self.landmarks.push(Landmark::Axis(axis));
@@ -117,12 +135,38 @@ impl<'a> Arc<'a> {
             }
         }
         let last = *self.nodes.last()?;
-        let end = self.end_after(last);
-        if end.alpha > last.alpha {
-            self.nodes.push(end);
+        self.last = self.end_after(last);
+        if self.last.alpha > last.alpha {
+            self.nodes.push(self.last);
         }
+        let end = if self.last.alpha > limit { self.interpolated(limit)? } else { self.last };
         self.landmarks.push(Landmark::End(Box::new(end)));
         Some(())
+    }
+
+    /// The meridian that this arc is.
+    pub fn meridian(&self) -> &Meridian<'a> {
+        &self.meridian
+    }
+
+    /// The last ray that leaves.
+    pub fn last_ray(&self) -> &Node {
+        &self.last
+    }
+
+    /// The ray launched at `sin α`.
+    pub fn ray_at(&self, sin: f64) -> Option<Node> {
+        self.interpolated(sin.asin())
+    }
+
+    /// Exit angles relative to that of the ray at `sin α = start`: the farthest in the direction in
+    /// which rays go from there to `sin α = full`, and that of the last ray.
+    pub fn reaches(&self, start: f64, full: f64) -> Option<[f64; 2]> {
+        let first = self.ray_at(start)?;
+        let sense = (self.ray_at(full)?.angle - first.angle).signum();
+        let beyond = self.nodes.iter().filter(|n| n.alpha > first.alpha);
+        let farthest = beyond.map(|n| sense * (n.angle - first.angle)).fold(0.0, f64::max);
+        Some([sense * farthest, self.last.angle - first.angle])
     }
 
     /// The last ray that still leaves, beyond a node.
@@ -187,6 +231,9 @@ impl<'a> Arc<'a> {
             let count = layout.knots.get(plain_count).copied();
             segments.push(self.plain_segment(&pair[0], from, to, count, layout)?);
         }
+        if let Some(rim) = &layout.rim {
+            segments.push(rim_wave(self, rim, layout.size_parameter)?);
+        }
         Some(segments)
     }
 
@@ -246,7 +293,7 @@ impl<'a> Arc<'a> {
             if 2 * k == count || 2 * k == count + 1 {
                 focal_lines = node.exit.focal_lines;
             }
-            knots.push(self.plain_knot(&node));
+            knots.push(self.plain_knot(&node, layout.rim.as_ref()));
         }
         let from_axis = matches!(start, Landmark::Axial);
         Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })
@@ -334,10 +381,11 @@ impl<'a> Arc<'a> {
         None
     }
 
-    fn plain_knot(&self, node: &Node) -> Knot {
+    fn plain_knot(&self, node: &Node, rim: Option<&RimLayout>) -> Knot {
         let (_, growing) = self.meridian.frame(node.angle);
         let transfer = self.meridian.transfer(&node.exit, node.angle);
-        let size = 1.0 / node.exit.spread().abs().sqrt();
+        let share = rim.map_or(1.0, |rim| 1.0 - rim.weight(node.alpha.sin()));
+        let size = share / node.exit.spread().abs().sqrt();
         let mut knot = [0.0; CHANNELS];
         knot[0] = node.angle;
         knot[1] = node.exit.path;

@@ -6,7 +6,10 @@
 //! meridians are traced instead. Orders whose meridians do not correspond (more than two rays
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
-use super::arc::{Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment};
+use super::arc::{
+    Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE,
+};
+use super::rim::{self, RimLayout};
 use super::meridian::{Meridian, axial_ray};
 use super::sweep::{Side, Sums, add_segment};
 use crate::optics::AmplitudeMatrix;
@@ -65,15 +68,19 @@ const LONGEST_DARK: f64 = 0.45;
 /// Order times deformation from which meridians no longer correspond across the axis.
 const HOPELESS_TANGLE: f64 = 0.068;
 
-/// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
-/// and with the deformation of the outline.
-fn axis_gaps(tracer: &Tracer, order: u32) -> Vec<f64> {
-    const NARROWEST: f64 = 0.02;
-    const WIDEST: f64 = 0.35;
+/// How far rays of an order stray from those of a sphere: order times deformation of the outline.
+fn tangle(tracer: &Tracer, order: u32) -> f64 {
     let silhouette = tracer.shape().silhouette();
     let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
     let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
-    let tangle = f64::from(order) * (high - low);
+    f64::from(order) * (high - low)
+}
+
+/// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
+/// and with the deformation of the outline.
+fn axis_gaps(order: u32, tangle: f64) -> Vec<f64> {
+    const NARROWEST: f64 = 0.02;
+    const WIDEST: f64 = 0.35;
     // Orders up to 3 do not cross the axis again; those that do are hopeless beyond this.
     if order > 3 && tangle > HOPELESS_TANGLE {
         return Vec::new();
@@ -133,15 +140,24 @@ impl OrderFan {
         let azimuths = azimuths(tracer, settings);
         let places = azimuths.places(settings);
         let density = 60.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
-        axis_gaps(tracer, order).into_iter().find_map(|axis_gap| {
+        let tangle = tangle(tracer, order);
+        let x = settings.size_parameter;
+        let rim = rim_layout(tracer, order, x, tangle);
+        let ways = rim.iter().cloned().map(Some).chain([None]);
+        let tries = ways.flat_map(|rim| {
+            axis_gaps(order, tangle).into_iter().map(move |gap| (rim.clone(), gap))
+        });
+        tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = ArcLayout {
                 scan: 64 + 16 * order as usize,
                 axis_gap,
                 folds: Vec::new(),
                 density,
                 knots: Vec::new(),
+                size_parameter: x,
+                rim,
             };
-            let meridians = trace(tracer, order, centre, &places, layout, settings.size_parameter)?;
+            let meridians = trace(tracer, order, centre, &places, layout, tangle)?;
             Some(Self { meridians, axis_gap, azimuths: azimuths.clone() })
         })
     }
@@ -202,6 +218,13 @@ impl OrderFan {
     }
 }
 
+/// Where the integral over rays near the rim takes over, if it serves this order.
+fn rim_layout(tracer: &Tracer, order: u32, x: f64, tangle: f64) -> Option<RimLayout> {
+    let (start, full) = rim::taper(tracer.index().re, order, x, tangle)?;
+    let rotational = tracer.shape().rotational_symmetry();
+    Some(RimLayout::new(start, full, rotational))
+}
+
 /// Index of the meridian at step `k`, whether it is a mirror image.
 fn fold_index(k: i64, count: usize) -> (usize, bool) {
     let last = count as i64 - 1;
@@ -213,6 +236,7 @@ fn fold_index(k: i64, count: usize) -> (usize, bool) {
 fn parity(kind: &Kind) -> Knot {
     let odd: &[usize] = match kind {
         Kind::Plain { .. } => &[PLAIN_AMPLITUDE + 4],
+        Kind::Wave => &[PLAIN_AMPLITUDE + 4, WAVE_SLOPE + 4],
         Kind::Pair { .. } => &[PAIR_AMPLITUDE + 4, PAIR_AMPLITUDE + 12],
     };
     std::array::from_fn(|c| if odd.iter().any(|&o| (o..o + 4).contains(&c)) { -1.0 } else { 1.0 })
@@ -267,7 +291,7 @@ fn trace(
     centre: [f64; 2],
     places: &[f64],
     mut layout: ArcLayout,
-    size_parameter: f64,
+    tangle: f64,
 ) -> Option<Vec<Vec<Segment>>> {
     let silhouette = tracer.shape().silhouette().tabulated();
     let arc = |phi: f64| Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, &layout);
@@ -281,7 +305,11 @@ fn trace(
     if arcs.iter().any(|arc| arc.signature() != signature) {
         return None;
     }
-    layout.folds = fold_reaches(&arcs, layout.axis_gap, size_parameter);
+    layout.folds = fold_reaches(&arcs, layout.axis_gap, layout.size_parameter);
+    if let Some(rim) = &mut layout.rim {
+        let index = tracer.index().re;
+        rim.spread_knots(&arcs, index, tangle, layout.size_parameter)?;
+    }
     for _ in 0..SHRINKS {
         if let Some(found) = cut(&arcs, &layout) {
             return Some(found);

@@ -65,9 +65,7 @@ impl<'a> Meridian<'a> {
 
     /// The exit of this order for a launch point, if it leaves.
     pub fn exit<T: Scalar>(&self, place: [T; 2]) -> Option<Exit<T>> {
-        let mut found = None;
-        self.tracer.trace_order(place[0], place[1], self.order, |exit| found = Some(exit))?;
-        found
+        self.tracer.trace_order(place[0], place[1], self.order)
     }
 
     /// Unit vector in the plane at an unwrapped angle, and the vector of growing angle.

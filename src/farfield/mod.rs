@@ -16,6 +16,7 @@ pub mod huygens_fresnel;
 pub mod interference;
 pub mod meridian;
 pub mod patch;
+pub mod rim;
 pub mod sweep;
 pub mod tabulate;
 

@@ -4,7 +4,7 @@
 //! turns fall away exactly. The loops are plain arithmetic over arrays, compiled for several
 //! instruction sets and chosen at run time.
 
-use super::arc::{Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment};
+use super::arc::{Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE};
 use crate::math::airy;
 use crate::math::phase::sin_cos_turns;
 use multiversion::multiversion;
@@ -92,7 +92,10 @@ fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f6
         if begin >= end {
             continue;
         }
-        let slopes = slopes.get_or_insert_with(|| amplitude_slopes(knots));
+        let slopes = slopes.get_or_insert_with(|| match segment.kind {
+            Kind::Wave => knots.iter().map(wave_slopes).collect(),
+            _ => amplitude_slopes(knots),
+        });
         let piece = Piece::new(&knots[k - 1], &knots[k], &slopes[k - 1], &slopes[k]);
         let mut at = begin;
         while at < end {
@@ -110,6 +113,7 @@ fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f6
                     let turns = -0.25 - 0.125 * f64::from(focal_lines);
                     pair(sums, at, &t[..count], &piece, x, turns);
                 }
+                Kind::Wave => plain(sums, at, &t[..count], &piece, x, 0.0),
             }
             at += count;
         }
@@ -147,6 +151,13 @@ impl Piece {
     fn pair_amplitude(&self, channel: usize) -> &[f64; 4] {
         &self.amplitude[channel + PAIR_AMPLITUDE - PLAIN_AMPLITUDE]
     }
+}
+
+/// Slopes of the amplitudes of a wave, which stand in its knots.
+fn wave_slopes(knot: &Knot) -> Knot {
+    let mut slopes = [0.0; super::arc::CHANNELS];
+    slopes[PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 8].copy_from_slice(&knot[WAVE_SLOPE..WAVE_SLOPE + 8]);
+    slopes
 }
 
 /// Slopes of all channels at all knots, from parabolas through neighbours.

@@ -59,6 +59,12 @@ impl<const C: usize> Chebyshev<C> {
         (value, slope)
     }
 
+    /// Keep terms up to this degree: the polynomial nearest in the least-squares sense, which
+    /// extrapolates without taking up what in the values is not smooth.
+    pub fn truncate(&mut self, degree: usize) {
+        self.coefficients.truncate(degree + 1);
+    }
+
     /// Size of the last coefficients of a channel: the error of interpolation.
     pub fn tail(&self, channel: usize) -> f64 {
         let count = self.coefficients.len();

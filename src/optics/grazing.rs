@@ -51,31 +51,62 @@ impl Grazing {
         if eta.norm() > SERIES && eta.re > 0.0 {
             return Self::series(s, eta).faded(s, share);
         }
+        match Self::airy(eta, ratio, third) {
+            Some((found, wave)) => found.with_phase(wave).faded(s, share),
+            None => Self::flat(s),
+        }
+    }
+
+    /// The same for integrals over rays, which need no fading: `root` carries the phase that the
+    /// wave outside gathers between its turning point and the surface, `exp(-i ⅔ η^{3/2})`, so that
+    /// it is analytic through grazing incidence. A path that goes with it must have
+    /// [`Grazing::path_outside`] added.
+    pub fn whole(cos_squared: f64, curvature_size: f64) -> Self {
+        let s = Complex64::from(cos_squared);
+        let third = (0.5 * curvature_size).cbrt();
+        let ratio = shape_ratio(s);
+        let eta = s * ratio * (third * third);
+        if eta.re > SERIES {
+            let wave = Complex64::cis(-(2.0 / 3.0) * eta.re.powf(1.5));
+            let found = if eta.re > FLAT { Self::flat(s) } else { Self::series(s, eta) };
+            return Self { root: found.root * wave, ..found };
+        }
+        Self::airy(eta, ratio, third).map_or_else(|| Self::flat(s), |(found, _)| found)
+    }
+
+    /// Path from the turning point of the wave outside to the surface, per radius of curvature:
+    /// `sin γ - γ cos γ` for the sine of the grazing angle.
+    pub fn path_outside(sin: f64) -> f64 {
+        sin - sin.asin() * (1.0 - sin * sin).max(0.0).sqrt()
+    }
+
+    /// Airy functions of `η`; `root` and `turn` without the phase of the wave, `i ⅔ η^{3/2}`, which
+    /// stands beside them.
+    fn airy(eta: Complex64, ratio: Complex64, third: f64) -> Option<(Self, Complex64)> {
         let scale = (ratio.inv()).sqrt() / third;
         let (out, inward) = if eta.im == 0.0 {
-            let out = real_airy_pair(eta.re);
-            (out, out.map(|(a, b)| (a.conj(), b.conj())))
+            let out = real_airy_pair(eta.re)?;
+            (out, (out.0.conj(), out.1.conj()))
         } else {
-            (airy_pair(eta, -1.0), airy_pair(eta, 1.0))
-        };
-        let (Some(out), Some(inward)) = (out, inward) else {
-            return Self::flat(s);
+            (airy_pair(eta, -1.0)?, airy_pair(eta, 1.0)?)
         };
         // √cos θ η^{-1/4} is smooth through grazing incidence
-        let quarter = scale.sqrt();
-        let wave = Complex64::i() * (2.0 / 3.0) * eta * eta.sqrt();
         let asymptote = |sign: f64| {
-            Complex64::from_polar(0.5 / PI.sqrt(), -sign * PI / 12.0) * (-sign * wave).exp()
+            scale.sqrt() * Complex64::from_polar(0.5 / PI.sqrt(), -sign * PI / 12.0)
         };
-        let root = quarter * asymptote(-1.0) / out.0;
-        let root_in = quarter * asymptote(1.0) / inward.0;
-        Self {
+        let (root, root_in) = (asymptote(-1.0) / out.0, asymptote(1.0) / inward.0);
+        let found = Self {
             lambda: -Complex64::cis(FRAC_PI_6) * out.1 / out.0 * scale,
             root,
             lambda_in: -Complex64::cis(-FRAC_PI_6) * inward.1 / inward.0 * scale,
             turn: root / root_in,
-        }
-        .faded(s, share)
+        };
+        Some((found, Complex64::i() * (2.0 / 3.0) * eta * eta.sqrt()))
+    }
+
+    /// The phase of the wave put back into `root` and `turn`.
+    fn with_phase(self, wave: Complex64) -> Self {
+        Self { root: self.root * wave.exp(), turn: self.turn * (2.0 * wave).exp(), ..self }
     }
 
     /// Part of the way from the flat interface to this one.

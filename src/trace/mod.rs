@@ -14,5 +14,5 @@ mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
 pub use exit::{Exit, transfer};
-pub use ray::Tracer;
+pub use ray::{Meeting, Tracer};
 pub use wavefront::Wavefront;

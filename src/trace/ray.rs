@@ -2,10 +2,10 @@
 
 use super::exit::Exit;
 use super::focal_lines;
-use super::surface_event::{Event, Interface};
+use super::surface_event::{Event, Interface, plane_of_incidence};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{Field, Vec3};
-use crate::shape::Shape;
+use crate::shape::{Shape, Tangent};
 use num_complex::Complex64;
 
 /// A ray with its differentials. Lengths in units of the radius of equal volume.
@@ -44,6 +44,21 @@ pub struct Remainder {
     pub truncated: f64,
 }
 
+/// How a real ray meets the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting {
+    /// Squared cosine of the angle outside; negative under total reflection.
+    pub cos_squared_outside: f64,
+    /// Radius of curvature in the plane of incidence.
+    pub radius: f64,
+    /// Unit normal of the plane of incidence.
+    pub perpendicular: Vec3<f64>,
+    /// Direction before the meeting.
+    pub direction: Vec3<f64>,
+    /// Optical path up to here.
+    pub path: f64,
+}
+
 impl<'a> Tracer<'a> {
     /// A tracer up to `last_order`; `size_parameter` matters only for absorption.
     pub fn new(shape: &'a Shape, index: Complex64, size_parameter: f64, last_order: u32) -> Self {
@@ -59,6 +74,11 @@ impl<'a> Tracer<'a> {
         self
     }
 
+    /// The complex index inside.
+    pub fn index(&self) -> Complex64 {
+        self.index
+    }
+
     /// The shape traced.
     pub fn shape(&self) -> &'a Shape {
         self.shape
@@ -69,65 +89,73 @@ impl<'a> Tracer<'a> {
         self.last_order
     }
 
-    /// Trace the ray launched at `(u, v)` up to one order, and visit only that order's exit.
-    pub fn trace_order<T: Scalar>(
-        &self,
-        u: T,
-        v: T,
-        order: u32,
-        visit: impl FnOnce(Exit<T>),
-    ) -> Option<()> {
-        let mut ray = self.launch(u, v)?;
-        let mut tangent = self.shape.tangent(ray.position);
-        let event = Event::new(&mut ray, &tangent, &self.interface);
-        if order == 0 {
-            visit(leave(0, event.reflect(&ray)));
-            return Some(());
-        }
-        let mut inside = event.refract(&ray, 1.0 / self.index.re)?;
-        for _ in 1..order {
-            self.cross(&mut inside, &tangent);
-            tangent = self.shape.tangent(inside.position);
-            inside = Event::new(&mut inside, &tangent, &self.interface).reflect(&inside);
-        }
-        self.cross(&mut inside, &tangent);
-        tangent = self.shape.tangent(inside.position);
-        let event = Event::new(&mut inside, &tangent, &self.interface);
-        visit(leave(order, event.refract(&inside, self.index.re)?));
-        Some(())
+    /// The exit of one order for the ray launched at `(u, v)`; `None` when it misses the particle
+    /// or is totally reflected at its last meeting with the surface.
+    pub fn trace_order<T: Scalar>(&self, u: T, v: T, order: u32) -> Option<Exit<T>> {
+        self.follow(u, v, order, |_, _| {})
     }
 
-    /// Trace a real ray up to one order, noting where it meets the surface as `(x, z)`.
+    /// The same, noting where a real ray meets the surface as `(x, z)`.
     pub fn trace_with_points(
         &self,
         u: f64,
         v: f64,
         order: u32,
         points: &mut Vec<[f64; 2]>,
-        visit: impl FnOnce(Exit<f64>),
-    ) -> Option<()> {
+    ) -> Option<Exit<f64>> {
+        self.follow(u, v, order, |ray, _| points.push([ray.position.x, ray.position.z]))
+    }
+
+    /// The same, noting how a real ray meets the surface each time.
+    pub fn trace_with_meetings(
+        &self,
+        u: f64,
+        v: f64,
+        order: u32,
+        meetings: &mut Vec<Meeting>,
+    ) -> Option<Exit<f64>> {
+        meetings.clear();
+        self.follow(u, v, order, |ray, tangent| {
+            let cos = ray.direction.dot(tangent.normal);
+            let sin_squared = 1.0 - cos * cos;
+            let index_before = if meetings.is_empty() { 1.0 } else { self.index.re };
+            meetings.push(Meeting {
+                cos_squared_outside: 1.0 - sin_squared * index_before * index_before,
+                radius: tangent.radius_along(ray.direction),
+                perpendicular: plane_of_incidence(ray.direction, tangent.normal),
+                direction: ray.direction,
+                path: ray.path,
+            });
+        })
+    }
+
+    /// Follow a ray to its exit; `meet` sees it at every surface point before it goes on.
+    fn follow<T: Scalar>(
+        &self,
+        u: T,
+        v: T,
+        order: u32,
+        mut meet: impl FnMut(&Ray<T>, &Tangent<T>),
+    ) -> Option<Exit<T>> {
         let mut ray = self.launch(u, v)?;
         let mut tangent = self.shape.tangent(ray.position);
-        points.push([ray.position.x, ray.position.z]);
+        meet(&ray, &tangent);
         let event = Event::new(&mut ray, &tangent, &self.interface);
         if order == 0 {
-            visit(leave(0, event.reflect(&ray)));
-            return Some(());
+            return Some(leave(0, event.reflect(&ray)));
         }
         let mut inside = event.refract(&ray, 1.0 / self.index.re)?;
         for chord in 1..=order {
             self.cross(&mut inside, &tangent);
-            points.push([inside.position.x, inside.position.z]);
             tangent = self.shape.tangent(inside.position);
+            meet(&inside, &tangent);
             let event = Event::new(&mut inside, &tangent, &self.interface);
-            if chord < order {
-                inside = event.reflect(&inside);
-            } else {
-                inside = event.refract(&inside, self.index.re)?;
+            if chord == order {
+                return Some(leave(order, event.refract(&inside, self.index.re)?));
             }
+            inside = event.reflect(&inside);
         }
-        visit(leave(order, inside));
-        Some(())
+        None
     }
 
     /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
@@ -190,7 +218,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Carry a ray over one chord; returns the share of power absorbed on it.
-    fn cross<T: Scalar>(&self, ray: &mut Ray<T>, tangent: &crate::shape::Tangent<T>) -> f64 {
+    fn cross<T: Scalar>(&self, ray: &mut Ray<T>, tangent: &Tangent<T>) -> f64 {
         let length = self.shape.chord(ray.position, ray.direction, tangent);
         if T::REAL {
             ray.focal_lines += count(ray, length.re());

@@ -139,7 +139,7 @@ impl<T: Scalar> Event<T> {
 }
 
 /// Unit normal of the plane of incidence.
-fn plane_of_incidence<T: Scalar>(direction: Vec3<T>, normal: Vec3<T>) -> Vec3<T> {
+pub(super) fn plane_of_incidence<T: Scalar>(direction: Vec3<T>, normal: Vec3<T>) -> Vec3<T> {
     let q = direction.cross(normal);
     let square = q.dot(q);
     if square.size() > 1e-24 {

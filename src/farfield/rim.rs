@@ -1,0 +1,488 @@
+//! The rim wave: all rays of one order that enter or leave near grazing incidence, as one integral.
+//!
+//! For orders from 4 on, the bow is made so close to the rim that its two rays, the last ray that
+//! leaves, and the penumbra beyond it lie within one wave zone: no formula for two rays holds. But
+//! along a meridian the wave is an integral over the exit rays' impact `β` (distance of the ray
+//! from the centre, in the meridian's plane),
+//! `S(ϑ) = -ix √(x/2π) e^{-iπm/2 ∓ iπ/4} ∫ dβ a(β) exp(ix [L(β) - βϑ])`, `L = W + βϑ(β)`,
+//! `a = T √(1/|∂(β, s⊥)/∂(u, v)|)`,
+//! whose points of stationary phase are the rays; it stays true where they merge, and its integrand
+//! goes on smoothly beyond the last ray, where waves tunnel through the surface: the coefficients of
+//! the curved interface ([`Grazing::whole`]) are analytic there. Launch points beyond the rim are not
+//! traced: path, angles of incidence, curvatures and frames are polynomials through real rays, taken
+//! a few wave zones further. For the sphere this is the Debye term in its asymptotic form (the sum
+//! over partial waves as an integral); measured against it, it errs by 0.05 % at x = 5000.
+//!
+//! The integral takes over from single rays with a smooth weight: rays well inside the rim are left
+//! to the plain segments of the meridian, with the weight's complement.
+
+use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE};
+use super::meridian::Node;
+use crate::math::chebyshev::{self, Chebyshev};
+use crate::math::phase::sin_cos_turns;
+use crate::math::vec3::Vec3;
+use crate::optics::{Grazing, curved_from_inside};
+use crate::trace::Meeting;
+use multiversion::multiversion;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// Where the integral takes over, and the knots of its wave; common to all meridians of an order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RimLayout {
+    /// Launch points `sin α` at which the weight leaves 0 and reaches 1.
+    pub start: f64,
+    pub full: f64,
+    /// Knots: angles from that of the ray at `start`, and the slope of the reference path there
+    /// relative to that ray's impact.
+    pub knots: Vec<[f64; 2]>,
+    /// Degree of the polynomials through real rays.
+    pub degree: usize,
+}
+
+/// Lowest order served.
+pub const FIRST_ORDER: u32 = 2;
+/// Widths of the Airy function between the bow's ray and the start of the taper.
+const AIRY_WIDTHS: f64 = 5.0;
+/// Fresnel zones of a ray within the taper: fewer would leave a step in the wave.
+const FRESNEL_ZONES: f64 = 12.0;
+/// Wave zones `x^{-2/3}` beyond the last ray at which tunnelling has ended.
+const TUNNEL: f64 = 4.0;
+/// Real rays through which the polynomials pass.
+const RAYS: usize = 20;
+/// Knots per period of the wave against its reference.
+const KNOTS_PER_PERIOD: f64 = 8.0;
+/// Samples of the integrand per period of its phase.
+const SAMPLES_PER_PERIOD: f64 = 3.0;
+
+/// Impact of the ray of a sphere's bow of this order, if there is one.
+fn bow(index: f64, order: u32) -> Option<f64> {
+    let p = f64::from(order);
+    let square = 1.0 - (index * index - 1.0) / (p * p - 1.0);
+    (square > 0.0 && square < 1.0 && index > 1.05).then(|| square.sqrt())
+}
+
+/// Slope and third derivative of a sphere's deviation by impact.
+fn deviation_slope(index: f64, order: u32, b: f64) -> (f64, f64) {
+    let p = f64::from(order);
+    let (c, ct) = (1.0 - b * b, index * index - b * b);
+    (2.0 / c.sqrt() - 2.0 * p / ct.sqrt(), 2.0 * b / c.powf(1.5) - 2.0 * p * b / ct.powf(1.5))
+}
+
+/// Start and end of the taper for a particle like a sphere, deformed so much that rays of this order
+/// stray by `tangle`. `None` where the integral would reach too far inside.
+pub fn taper(index: f64, order: u32, size_parameter: f64, tangle: f64) -> Option<(f64, f64)> {
+    const DEEPEST: f64 = 0.3;
+    let b = bow(index, order).filter(|_| order >= FIRST_ORDER)?;
+    let (_, bend) = deviation_slope(index, order, b);
+    let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
+    let full = b - AIRY_WIDTHS * airy - tangle;
+    if full < DEEPEST {
+        return None;
+    }
+    let (slope, _) = deviation_slope(index, order, full);
+    let fresnel = (size_parameter * slope.abs()).sqrt().recip();
+    Some(((full - FRESNEL_ZONES * fresnel).max(0.5 * full), full))
+}
+
+impl RimLayout {
+    /// A layout without knots yet. Where nothing depends on azimuth, path and angles are analytic in
+    /// the launch point to the rim and beyond; else only nearly so, and low degrees must do.
+    pub fn new(start: f64, full: f64, rotational: bool) -> Self {
+        let degree = if rotational { RAYS - 1 } else { 8 };
+        Self { start, full, knots: Vec::new(), degree }
+    }
+
+    /// Weight of the integral for a launch point `sin α`: an infinitely smooth step.
+    pub fn weight(&self, sin: f64) -> f64 {
+        let t = (sin - self.start) / (self.full - self.start);
+        if t <= 0.0 {
+            0.0
+        } else if t >= 1.0 {
+            1.0
+        } else {
+            1.0 / (1.0 + (1.0 / t - 1.0 / (1.0 - t)).exp())
+        }
+    }
+
+    /// Spread knots that serve all arcs of an order: from the ray at `start` past the bow, as far as
+    /// its dark side reaches. `None` where they would reach the axis, where waves from all azimuths
+    /// meet.
+    pub fn spread_knots(&mut self, arcs: &[Arc], index: f64, tangle: f64, x: f64) -> Option<()> {
+        const DARK_ZETA: f64 = 7.5;
+        const PENUMBRA: f64 = 8.0;
+        const LONGEST_DARK: f64 = 0.45;
+        const NEAREST_AXIS: f64 = 0.03;
+        const FARTHEST_PENUMBRA: f64 = 0.5;
+        let order = arcs.first()?.meridian().order;
+        let reaches: Vec<[f64; 2]> =
+            arcs.iter().map(|a| a.reaches(self.start, self.full)).collect::<Option<_>>()?;
+        let sense = reaches[0][0].signum();
+        let bow_side = reaches.iter().map(|r| sense * r[0]);
+        let (shortest, longest) =
+            bow_side.fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(r), h.max(r)));
+        let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
+        let end = longest + dark + (longest - shortest);
+        // beyond the last ray its penumbra dies away with x^{1/3}
+        let last = reaches.iter().map(|r| sense * r[1]).fold(f64::MAX, f64::min);
+        let penumbra = (PENUMBRA * x.cbrt().recip()).min(FARTHEST_PENUMBRA);
+        let begin = (last - penumbra).min(0.0);
+        let bow = bow(index, order)?;
+        let zone = (0.5 * x * deviation_slope(index, order, bow).1).cbrt().recip();
+        let spare = 0.3 * tangle + zone + x.powf(-2.0 / 3.0);
+        self.knots = knots([begin, longest, end], sense, [self.start, bow], spare, x);
+        // waves from all azimuths meet at the axis
+        for arc in arcs {
+            let first = arc.ray_at(self.start)?.angle;
+            let near = |offset: f64| ((first + offset) / PI).round() * PI - first;
+            let axes = [near(0.0), near(0.0) + PI, near(0.0) - PI];
+            if axes[0].abs() < NEAREST_AXIS {
+                return None;
+            }
+            self.knots.retain(|k| {
+                axes.iter().all(|axis| {
+                    let (from, to) = (axis.abs() - NEAREST_AXIS, axis.signum() * k[0]);
+                    to < from
+                })
+            });
+        }
+        (self.knots.len() > 4).then_some(())
+    }
+}
+
+/// Angle over which the argument of a sphere's Airy function grows by 1.
+fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
+    let (p, n) = (f64::from(order).powi(2), index * index);
+    let h = (p - 1.0).powi(2) / p * ((p - n) / (n - 1.0).powi(3)).sqrt();
+    h.cbrt() * x.powf(-2.0 / 3.0)
+}
+
+/// Knots from `begin` to `end` (radians towards the bow, which is at `bow_at`, from the ray at the
+/// start of the taper), close enough for waves whose impact lies between that of the inner ray and
+/// the rim, give or take `spare`. `start` and `bow` are the impacts of those rays.
+fn knots(
+    [begin, bow_at, end]: [f64; 3],
+    sense: f64,
+    [start, bow]: [f64; 2],
+    spare: f64,
+    x: f64,
+) -> Vec<[f64; 2]> {
+    let mut at = begin;
+    let mut knots = Vec::new();
+    loop {
+        // towards the bow the inner ray's angle runs like a square
+        let share = (at / bow_at).clamp(0.0, 1.0);
+        let inner = bow - (bow - start) * (1.0 - share).sqrt();
+        let half_band = 0.5 * (1.0 - inner);
+        knots.push([sense * at, inner + half_band - start]);
+        if at >= end {
+            return knots;
+        }
+        at += TAU / (KNOTS_PER_PERIOD * x * (half_band + spare));
+    }
+}
+
+/// What the integral needs along a meridian, as polynomials in the launch point `sin α`.
+struct Rays {
+    channels: Vec<Chebyshev<1>>,
+    order: usize,
+    /// Launch points of the first and the last real ray.
+    from: f64,
+    to: f64,
+}
+
+/// Channels: impact, path L without the part outside, spreading, path inside, then three for each
+/// meeting with the surface, then the last turn of the frame.
+const IMPACT: usize = 0;
+const PATH: usize = 1;
+const SPREADING: usize = 2;
+const INSIDE: usize = 3;
+const MEETINGS: usize = 4;
+
+/// The rim wave of a meridian. `None` where its rays cannot be followed that far.
+pub fn rim_wave(
+    arc: &Arc,
+    layout: &RimLayout,
+    size_parameter: f64,
+) -> Option<Segment> {
+    let meridian = arc.meridian();
+    let first = arc.ray_at(layout.start)?;
+    let rays = Rays::through(arc, layout)?;
+    let length = (layout.knots.last()?[0] - layout.knots.first()?[0]).abs();
+    let integrand = rays.integrand(layout, meridian.tracer.index(), size_parameter, length)?;
+    let ahead = arc.ray_at(layout.start + 0.01 * (layout.full - layout.start))?;
+    let impact = |node: &Node| node.exit.reference.dot(meridian.frame(node.angle).1);
+    let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
+    let phase = Complex64::cis(
+        -FRAC_PI_2 * (1.0 + f64::from(first.exit.focal_lines)) - FRAC_PI_4 * turn,
+    );
+    let scale = (size_parameter / TAU).sqrt();
+    // towards the rim impacts grow in size
+    let sense = impact(&first).signum();
+    let mut before = *layout.knots.first()?;
+    let mut path = first.exit.path - (impact(&first) + sense * before[1]) * before[0];
+    let mut knots = Vec::with_capacity(layout.knots.len());
+    for &[offset, depth] in &layout.knots {
+        let angle = first.angle + offset;
+        let mean = impact(&first) + sense * 0.5 * (before[1] + depth);
+        path -= mean * (offset - before[0]);
+        before = [offset, depth];
+        let slope = -(impact(&first) + sense * depth);
+        let factor = phase * scale / angle.sin().abs().sqrt();
+        let sums = integrand.sum(angle, path, size_parameter);
+        knots.push(knot(angle, path, slope, factor, &sums, size_parameter));
+    }
+    knots.iter().flatten().all(|v| v.is_finite()).then_some(Segment { kind: Kind::Wave, knots })
+}
+
+/// Sums of the four elements against the reference path, and of the same times the impact.
+type Sums = [[Complex64; 4]; 2];
+
+fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f64) -> Knot {
+    let mut knot = [0.0; CHANNELS];
+    (knot[0], knot[1], knot[2]) = (angle, path, slope);
+    let shrink = -0.5 * angle.cos() / angle.sin();
+    for element in 0..4 {
+        let value = factor * sums[0][element];
+        // d/dϑ of exp(-ix(βϑ + W_ref)) and of 1/√sin ϑ
+        let by_angle = -Complex64::i() * x * (factor * sums[1][element] + slope * value);
+        let rate = by_angle + shrink * value;
+        let c = PLAIN_AMPLITUDE + 2 * element;
+        (knot[c], knot[c + 1]) = (value.re, value.im);
+        let c = WAVE_SLOPE + 2 * element;
+        (knot[c], knot[c + 1]) = (rate.re, rate.im);
+    }
+    knot
+}
+
+impl Rays {
+    /// Trace real rays from the start of the taper to the last that leaves.
+    fn through(arc: &Arc, layout: &RimLayout) -> Option<Self> {
+        let meridian = arc.meridian();
+        let order = meridian.order as usize;
+        // the last rays meet the surface so flatly that their differentials lose digits
+        const SPARE: f64 = 0.002;
+        let to = arc.last_ray().alpha.sin() - SPARE * (1.0 - layout.start);
+        let points = chebyshev::points(RAYS, layout.start, to);
+        let mut meetings: Vec<Meeting> = Vec::new();
+        let mut rows = Vec::with_capacity(RAYS);
+        for sin in points {
+            let node = arc.ray_at(sin)?;
+            let [u, v] = node.place;
+            meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings)?;
+            rows.push(row(arc, &node, &meetings)?);
+        }
+        // unwrap the turns of frames, which are smooth
+        for k in 1..rows.len() {
+            for hit in 0..=order + 1 {
+                let c = MEETINGS + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
+                rows[k][c] += TAU * ((rows[k - 1][c] - rows[k][c]) / TAU).round();
+            }
+        }
+        let channels = (0..rows[0].len())
+            .map(|c| {
+                let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
+                let mut series = Chebyshev::fit(&values, layout.start, to);
+                series.truncate(layout.degree);
+                series
+            })
+            .collect();
+        Some(Self { channels, order, from: layout.start, to })
+    }
+
+    fn at(&self, channel: usize, sin: f64) -> (f64, f64) {
+        let ([value], [slope]) = self.channels[channel].at(sin);
+        (value, slope)
+    }
+
+    /// The integrand on an even grid of launch points, up to where tunnelling ends.
+    fn integrand(
+        &self,
+        layout: &RimLayout,
+        index: Complex64,
+        x: f64,
+        length: f64,
+    ) -> Option<Integrand> {
+        let edge = self.last_real();
+        let end = (edge + TUNNEL * x.powf(-2.0 / 3.0)).min(0.98 * index.re);
+        // the phase turns by x (ϑ(β) - ϑ) per impact; ϑ(β) strays beyond the knots by this at most
+        const STRAY: f64 = 0.5;
+        let count = ((end - self.from) * x * (length + STRAY) * SAMPLES_PER_PERIOD / TAU).ceil();
+        let step = (end - self.from) / count;
+        let count = count as usize;
+        let mut integrand = Integrand::with_capacity(count);
+        for k in 1..count {
+            let sin = self.from + k as f64 * step;
+            let weight = layout.weight(sin) * step;
+            let matrix = self.transfer(sin, index, x)?;
+            let (spreading, _) = self.at(SPREADING, sin);
+            let (impact, rate) = self.at(IMPACT, sin);
+            let (path, _) = self.at(PATH, sin);
+            let (inside, _) = self.at(INSIDE, sin);
+            let absorbed = (-x * index.im * inside / index.re).exp();
+            let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
+            integrand.push(impact, path, matrix.map(|m| m * factor));
+        }
+        Some(integrand)
+    }
+
+    /// Launch point at which the first of entry and exit becomes grazing.
+    fn last_real(&self) -> f64 {
+        let grazing = |channel: usize| {
+            let mut sin = self.to;
+            for _ in 0..20 {
+                let (value, slope) = self.at(channel, sin);
+                let step = (value / slope).clamp(-0.02, 0.02);
+                if !step.is_finite() {
+                    return f64::INFINITY;
+                }
+                sin -= step;
+            }
+            sin
+        };
+        let (entry, exit) = (grazing(MEETINGS), grazing(MEETINGS + 3 * self.order));
+        entry.min(if exit > self.from { exit } else { f64::INFINITY }).clamp(self.to, self.to + 0.3)
+    }
+
+    /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
+    fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
+        // fields as (perpendicular, parallel) for incident light of either kind
+        let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
+        for hit in 0..=self.order {
+            let c = MEETINGS + 3 * hit;
+            let (square, _) = self.at(c, sin);
+            let (radius, _) = self.at(c + 1, sin);
+            turn(&mut fields, self.at(c + 2, sin).0);
+            let grazing = Grazing::whole(square, x * radius);
+            let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
+            let f = curved_from_inside(inside, index, &grazing);
+            let through = hit == 0 || hit == self.order;
+            let (perpendicular, parallel) = if through {
+                (f.t_perpendicular, f.t_parallel)
+            } else {
+                (f.r_perpendicular, f.r_parallel)
+            };
+            for field in &mut fields {
+                field[0] *= perpendicular;
+                field[1] *= parallel;
+            }
+        }
+        turn(&mut fields, self.at(MEETINGS + 3 * (self.order + 1), sin).0);
+        let [across, along] = fields;
+        let all = [across[0], along[1], -across[1], -along[0]];
+        all.iter().all(|s| s.is_finite()).then_some(all)
+    }
+}
+
+/// Turn the frame of fields about the ray.
+fn turn(fields: &mut [[Complex64; 2]; 2], angle: f64) {
+    let (sin, cos) = angle.sin_cos();
+    for field in fields {
+        let [a, b] = *field;
+        *field = [a * cos + b * sin, b * cos - a * sin];
+    }
+}
+
+/// All channels of one ray.
+fn row(arc: &Arc, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
+    let meridian = arc.meridian();
+    let (_, growing) = meridian.frame(node.angle);
+    let across = meridian.across();
+    let exit = &node.exit;
+    let impact = exit.reference.dot(growing);
+    let minor = exit.dx[0].dot(growing) * exit.ds[1].dot(across)
+        - exit.dx[1].dot(growing) * exit.ds[0].dot(across);
+    let outside = |m: &Meeting| {
+        m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
+    };
+    let (first, last) = (meetings.first()?, meetings.last()?);
+    let path = exit.path + impact * node.angle + outside(first) + outside(last);
+    let spreading = node.angle.sin().abs() / minor.abs();
+    let mut row = vec![impact, path, spreading, last.path - first.path];
+    // frames are (perpendicular, perpendicular × direction)
+    let mut frame = across;
+    for meeting in meetings {
+        let angle = frame_turn(frame, meeting.perpendicular, meeting.direction);
+        row.extend([meeting.cos_squared_outside, meeting.radius, angle]);
+        frame = meeting.perpendicular;
+    }
+    row.push(frame_turn(frame, across, exit.direction));
+    Some(row)
+}
+
+/// Angle by which a frame about a ray must turn for its first axis to become another.
+fn frame_turn(from: Vec3<f64>, to: Vec3<f64>, direction: Vec3<f64>) -> f64 {
+    from.cross(direction).dot(to).atan2(from.dot(to))
+}
+
+/// Samples of the integrand: impacts, paths in units of the radius, four complex elements.
+struct Integrand {
+    impact: Vec<f64>,
+    path: Vec<f64>,
+    parts: [Vec<f64>; 8],
+}
+
+impl Integrand {
+    fn with_capacity(count: usize) -> Self {
+        let column = || Vec::with_capacity(count);
+        Self { impact: column(), path: column(), parts: std::array::from_fn(|_| column()) }
+    }
+
+    fn push(&mut self, impact: f64, path: f64, elements: [Complex64; 4]) {
+        self.impact.push(impact);
+        self.path.push(path);
+        for (k, e) in elements.into_iter().enumerate() {
+            self.parts[2 * k].push(e.re);
+            self.parts[2 * k + 1].push(e.im);
+        }
+    }
+
+    /// `Σ F exp(ix(L - βϑ - W))`, and the same times β.
+    fn sum(&self, angle: f64, reference: f64, x: f64) -> Sums {
+        let mut found = [0.0; 16];
+        sum(&self.impact, &self.path, &self.parts, angle, reference, x, &mut found);
+        let at = |k: usize| Complex64::new(found[k], found[k + 1]);
+        [std::array::from_fn(|e| at(2 * e)), std::array::from_fn(|e| at(8 + 2 * e))]
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
+fn sum(
+    impact: &[f64],
+    path: &[f64],
+    parts: &[Vec<f64>; 8],
+    angle: f64,
+    reference: f64,
+    x: f64,
+    found: &mut [f64; 16],
+) {
+    const LANES: usize = 16;
+    let per_turn = x / TAU;
+    for start in (0..impact.len()).step_by(LANES) {
+        let count = LANES.min(impact.len() - start);
+        let (mut sin, mut cos, mut weight) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for k in 0..count {
+            let beta = impact[start + k];
+            let turns = per_turn * (path[start + k] - beta * angle - reference);
+            (sin[k], cos[k]) = sin_cos_turns(turns);
+            weight[k] = beta;
+        }
+        for element in 0..4 {
+            let re = &parts[2 * element][start..start + count];
+            let im = &parts[2 * element + 1][start..start + count];
+            let mut sums = [0.0; 4];
+            for k in 0..count {
+                let a = re[k] * cos[k] - im[k] * sin[k];
+                let b = re[k] * sin[k] + im[k] * cos[k];
+                sums[0] += a;
+                sums[1] += b;
+                sums[2] += a * weight[k];
+                sums[3] += b * weight[k];
+            }
+            found[2 * element] += sums[0];
+            found[2 * element + 1] += sums[1];
+            found[8 + 2 * element] += sums[2];
+            found[9 + 2 * element] += sums[3];
+        }
+    }
+}
