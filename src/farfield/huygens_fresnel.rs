@@ -178,11 +178,8 @@ impl HuygensFresnel {
     /// The secondary source of one ray of the grid.
     fn source(&self, tracer: &Tracer, grid: &Wavefront, i: usize, j: usize) -> Option<Source> {
         let (u, v) = grid.place(i, j);
-        let mut source = None;
-        tracer.trace_order(u, v, self.order, |exit: Exit<f64>| {
-            source = Some(Source::new(&exit, grid.share(i, j)));
-        });
-        source
+        let exit = tracer.trace_order(u, v, self.order)?;
+        Some(Source::new(&exit, grid.share(i, j)))
     }
 
     fn add(&self, sum: &mut Sum, ray: &Source, direction: Vec3<f64>, surface: f64) {
