@@ -279,11 +279,11 @@ impl Path {
         // scattered direction is -z: its component along the new "up"
         let sine = self.theta.sin();
         let cos_phi = (self.theta.cos() * sun.sin() + self.sun.sin()) / (sine * sun.cos());
-        // the handedness of the triple (axis, incident, scattered) keeps the sign of φ
+        // the handedness of the triple (axis, incident, scattered) turns over, and φ with it
         Path {
             sun,
             theta: self.theta,
-            phi: cos_phi.clamp(-1.0, 1.0).acos() * self.phi.sin().signum(),
+            phi: -cos_phi.clamp(-1.0, 1.0).acos() * self.phi.sin().signum(),
         }
     }
 }
