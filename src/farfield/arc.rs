@@ -129,7 +129,7 @@ impl<'a> Arc<'a> {
                 // total reflection: what lies beyond is not followed
                 self.nodes.truncate(k);
                 break;
-            } else if a.exit.spread() * b.exit.spread() < 0.0 {
+            } else if a.exit.spread() * b.exit.spread() < 0.0 && self.turns_back(k) {
                 let fold = Fold::between(&self.meridian, self.silhouette, &a, &b)?;
                 self.landmarks.push(Landmark::Fold(fold));
             }
@@ -142,6 +142,17 @@ impl<'a> Arc<'a> {
         let end = if self.last.alpha > limit { self.interpolated(limit)? } else { self.last };
         self.landmarks.push(Landmark::End(Box::new(end)));
         Some(())
+    }
+
+    /// Whether the exit angle turns back between nodes `k - 1` and `k`: a fold of the meridian. Else
+    /// a change of the spread's sign means that rays meet across the meridian's plane, as they do
+    /// near the axis for flattened particles.
+    fn turns_back(&self, k: usize) -> bool {
+        let angle = |k: usize| self.nodes.get(k).map(|n| n.angle);
+        let here = self.nodes[k].angle - self.nodes[k - 1].angle;
+        let before = k.checked_sub(2).and_then(angle).map_or(here, |a| self.nodes[k - 1].angle - a);
+        let after = angle(k + 1).map_or(here, |a| a - self.nodes[k].angle);
+        before * after < 0.0
     }
 
     /// The meridian that this arc is.
@@ -305,9 +316,11 @@ impl<'a> Arc<'a> {
         let k = nodes.partition_point(|n| n.alpha < alpha).clamp(1, nodes.len() - 1);
         let (a, b) = (&nodes[k - 1], &nodes[k]);
         let share = (alpha - a.alpha) / (b.alpha - a.alpha);
-        let psi = a.psi + share * (b.psi - a.psi);
         let angle = a.angle + share * (b.angle - a.angle);
-        self.meridian.node(self.silhouette, alpha, psi, angle)
+        // next to total reflection the azimuth runs like a square root: other guesses may do better
+        [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter().find_map(|s| {
+            self.meridian.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
+        })
     }
 
     /// The ray at an edge of a plain segment.
@@ -381,6 +394,17 @@ impl<'a> Arc<'a> {
         None
     }
 
+    /// The spread of a ray, kept from zero where rays meet across the plane.
+    fn bounded_spread(&self, node: &Node) -> f64 {
+        const NEAREST: f64 = 0.05;
+        let spread = node.exit.spread().abs();
+        if self.meridian.order <= 3 {
+            return spread;
+        }
+        let across = self.meridian.spread_across(&node.exit, node.angle).abs();
+        spread * (across.max(NEAREST) / across)
+    }
+
     fn plain_knot(&self, node: &Node, layout: &ArcLayout) -> Knot {
         let (_, growing) = self.meridian.frame(node.angle);
         let transfer = self.meridian.transfer(&node.exit, node.angle);
@@ -388,7 +412,7 @@ impl<'a> Arc<'a> {
         let share = rim.map_or(1.0, |rim| 1.0 - rim.weight(node.alpha.sin()));
         // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
         // that focus at infinity, as about the axis for indices of 2 and 4.
-        let spread = node.exit.spread().abs().max(4.0 / layout.size_parameter.powi(2));
+        let spread = self.bounded_spread(node).max(4.0 / layout.size_parameter.powi(2));
         let size = share / spread.sqrt();
         let mut knot = [0.0; CHANNELS];
         knot[0] = node.angle;

@@ -78,11 +78,11 @@ fn tangle(tracer: &Tracer, order: u32) -> f64 {
 
 /// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
 /// and with the deformation of the outline.
-fn axis_gaps(order: u32, tangle: f64) -> Vec<f64> {
+fn axis_gaps(order: u32, tangle: f64, rim: bool) -> Vec<f64> {
     const NARROWEST: f64 = 0.02;
     const WIDEST: f64 = 0.35;
     // Orders up to 3 do not cross the axis again; those that do are hopeless beyond this.
-    if order > 3 && tangle > HOPELESS_TANGLE {
+    if order > 3 && tangle > HOPELESS_TANGLE && !rim {
         return Vec::new();
     }
     let mut gaps = [3.0, 6.0].map(|f| (f * tangle).clamp(NARROWEST, WIDEST)).to_vec();
@@ -139,14 +139,14 @@ impl OrderFan {
         let centre = axial_ray(tracer, order);
         let azimuths = azimuths(tracer, settings);
         let places = azimuths.places(settings);
-        let density = 60.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
+        let density = 32.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let tangle = tangle(tracer, order);
         let x = settings.size_parameter;
-        let rim = rim_layout(tracer, order, x, tangle);
-        let ways = rim.iter().cloned().map(Some).chain([None]);
-        let tries = ways.flat_map(|rim| {
-            axis_gaps(order, tangle).into_iter().map(move |gap| (rim.clone(), gap))
-        });
+        let with_rim = axis_gaps(order, tangle, true)
+            .into_iter()
+            .filter_map(|gap| Some((Some(rim_layout(tracer, order, x, tangle, gap)?), gap)));
+        let without = axis_gaps(order, tangle, false).into_iter().map(|gap| (None, gap));
+        let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = ArcLayout {
                 scan: 64 + 16 * order as usize,
@@ -219,8 +219,14 @@ impl OrderFan {
 }
 
 /// Where the integral over rays near the rim takes over, if it serves this order.
-fn rim_layout(tracer: &Tracer, order: u32, x: f64, tangle: f64) -> Option<RimLayout> {
-    let (start, full) = rim::taper(tracer.index().re, order, x, tangle)?;
+fn rim_layout(
+    tracer: &Tracer,
+    order: u32,
+    x: f64,
+    tangle: f64,
+    axis_gap: f64,
+) -> Option<RimLayout> {
+    let (start, full) = rim::taper(tracer.index().re, order, x, tangle, axis_gap)?;
     let rotational = tracer.shape().rotational_symmetry();
     Some(RimLayout::new(start, full, rotational))
 }
@@ -298,19 +304,25 @@ fn trace(
     // A few meridians far apart tell soon whether all can correspond.
     let probes = [0.0, 0.5, 1.0, 0.25, 0.75].map(|f| (f * (places.len() - 1) as f64) as usize);
     let signature = arc(places[probes[0]])?.signature();
-    if probes.iter().any(|&k| arc(places[k]).is_none_or(|a| a.signature() != signature)) {
+    let differs = |k: &&usize| arc(places[**k]).is_none_or(|a| a.signature() != signature);
+    if probes.iter().filter(differs).count() > 1 {
         return None;
     }
-    let arcs: Vec<Arc> = places.par_iter().map(|&phi| arc(phi)).collect::<Option<_>>()?;
-    if arcs.iter().any(|arc| arc.signature() != signature) {
+    let arcs: Vec<Option<Arc>> = places
+        .par_iter()
+        .map(|&phi| arc(phi).filter(|arc| arc.signature() == signature))
+        .collect();
+    let found: Vec<&Arc> = arcs.iter().flatten().collect();
+    if places.len() - found.len() > most_missing(places.len()) {
         return None;
     }
-    layout.folds = fold_reaches(&arcs, layout.axis_gap, layout.size_parameter);
+    layout.folds = fold_reaches(&found, layout.axis_gap, layout.size_parameter);
     if let Some(rim) = &mut layout.rim {
         let index = tracer.index().re;
-        rim.spread_knots(&arcs, index, tangle, layout.size_parameter)?;
+        rim.spread_knots(&found, layout.axis_gap, index, tangle, layout.size_parameter)?;
     }
-    for _ in 0..SHRINKS {
+    let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
+    for _ in 0..shrinks {
         if let Some(found) = cut(&arcs, &layout) {
             return Some(found);
         }
@@ -322,11 +334,17 @@ fn trace(
     None
 }
 
+/// Meridians that may be filled from their neighbours: rays get lost here and there where a
+/// meridian grazes a tangle of rays.
+fn most_missing(count: usize) -> usize {
+    count / 10
+}
+
 /// How often the reach of pair segments is shortened when a complex ray cannot be found.
 const SHRINKS: usize = 6;
 
 /// Reach on the dark and lit side of each fold, common to all meridians.
-fn fold_reaches(arcs: &[Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {
+fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {
     let measured: Vec<Vec<(f64, f64)>> = arcs.iter().map(|arc| arc.folds(axis_gap)).collect();
     let count = measured.first().map_or(0, Vec::len);
     let unit = size_parameter.powf(-2.0 / 3.0);
@@ -342,21 +360,47 @@ fn fold_reaches(arcs: &[Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f
 }
 
 /// All segments of all meridians, with common numbers of knots.
-fn cut(arcs: &[Arc], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
-    let first: Vec<Vec<Segment>> =
-        arcs.par_iter().map(|arc| arc.segments(layout)).collect::<Option<_>>()?;
-    let longest = |s: usize| first.iter().map(|m| m[s].knots.len()).max().unwrap_or(0);
-    let plain = |s: &&usize| matches!(first[0][**s].kind, Kind::Plain { .. });
-    let numbers: Vec<usize> = (0..first.first()?.len()).collect();
-    let knots: Vec<usize> = numbers.iter().filter(plain).map(|&s| longest(s) - 1).collect();
+fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
+    let segments = |layout: &ArcLayout| -> Vec<Option<Vec<Segment>>> {
+        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.segments(layout))).collect()
+    };
+    let first = segments(layout);
+    let template: &Vec<Segment> = first.iter().flatten().next()?;
+    let longest = |s: usize| first.iter().flatten().map(|m| m[s].knots.len()).max().unwrap_or(0);
+    let plain = |s: &usize| matches!(template[*s].kind, Kind::Plain { .. });
+    let numbers = 0..template.len();
+    let knots: Vec<usize> = numbers.filter(plain).map(|s| longest(s) - 1).collect();
     let same = |m: &Vec<Segment>| m.iter().enumerate().all(|(s, x)| x.knots.len() == longest(s));
-    let same_kind = |m: &Vec<Segment>| m.iter().zip(&first[0]).all(|(a, b)| a.kind == b.kind);
-    if !first.iter().all(same_kind) {
+    let same_kind = |m: &Vec<Segment>| m.iter().zip(template).all(|(a, b)| a.kind == b.kind);
+    let keep_kind = |m: Option<Vec<Segment>>| m.filter(same_kind);
+    if first.iter().flatten().all(same) {
+        let template_kept = first.iter().cloned().map(keep_kind).collect();
+        return fill_missing(template_kept);
+    }
+    let again = segments(&ArcLayout { knots, ..layout.clone() });
+    fill_missing(again.into_iter().map(keep_kind).collect())
+}
+
+/// Fill meridians that were not found from the nearest on both sides. `None` when too many or an
+/// outer one is missing.
+fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
+    let count = meridians.len();
+    if meridians.iter().filter(|m| m.is_none()).count() > most_missing(count) {
         return None;
     }
-    if first.iter().all(same) {
-        return Some(first);
+    for k in 0..count {
+        if meridians[k].is_some() {
+            continue;
+        }
+        let after = (k + 1..count).find(|&j| meridians[j].is_some())?;
+        let before = k.checked_sub(1)?;
+        let share = 1.0 / (after - before) as f64;
+        let (a, b) = (meridians[before].as_ref()?, meridians[after].as_ref()?);
+        let between = |(a, b): (&Segment, &Segment)| {
+            let knot = |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
+            Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
+        };
+        meridians[k] = Some(a.iter().zip(b).map(between).collect());
     }
-    let layout = ArcLayout { knots, ..layout.clone() };
-    arcs.par_iter().map(|arc| arc.segments(&layout)).collect()
+    meridians.into_iter().collect()
 }

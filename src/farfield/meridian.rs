@@ -92,6 +92,15 @@ impl<'a> Meridian<'a> {
         )
     }
 
+    /// `|∂(β, s⊥)/∂(u, v)|` with the exit ray's impact β in the plane and its direction `s⊥` across:
+    /// how rays spread across the plane, without the folds within it.
+    pub fn spread_across(&self, exit: &Exit<f64>, angle: f64) -> f64 {
+        let (_, growing) = self.frame(angle);
+        let impact = |k: usize| exit.dx[k].dot(growing);
+        let across = |k: usize| exit.ds[k].dot(self.across);
+        impact(0) * across(1) - impact(1) * across(0)
+    }
+
     /// Launch point at `(α, ψ)`, and its derivatives with respect to ψ.
     fn place(&self, silhouette: &Silhouette, alpha: f64, psi: f64) -> ([f64; 2], [f64; 2]) {
         let (rim, slope) = silhouette.radius_and_slope(psi);
@@ -137,46 +146,55 @@ impl<'a> Meridian<'a> {
 
     /// Follow the meridian from the axial ray to the rim in even steps of α; gaps are `None`.
     ///
-    /// Within `axis_gap` of a later crossing of the axis many rays leave in almost one direction and
-    /// the meridian branches; those rays are left out, and the scan goes on beyond.
+    /// Where the meridian crosses the axis again, rays of many azimuths leave in almost one direction
+    /// and its branches are entangled, within `axis_gap` of the axis. So every stretch between
+    /// crossings is followed from its own middle, where rays are nearly those of a sphere, to both
+    /// sides, until the first node inside the gap.
     pub fn scan(&self, silhouette: &Silhouette, count: usize, axis_gap: f64) -> Vec<Option<Node>> {
-        let step = (FRAC_PI_2 - GRAZING) / count as f64;
-        let start = self.axis_angle();
-        let mut nodes: Vec<Option<Node>> = Vec::with_capacity(count);
-        let mut previous: Option<Node> = None;
-        let (mut psi, mut angle_rate) = (self.first_azimuth(), 0.0);
-        let mut psi_rate = 0.0;
-        for i in 0..count {
-            let alpha = (i as f64 + 0.5) * step;
-            let ahead = previous.map_or(0.0, |b| alpha - b.alpha);
-            let near = previous.map_or(start, |b| b.angle + angle_rate * ahead);
-            let crossing = ((near - start) / PI).round();
-            let from_axis = (near - start - crossing * PI).abs();
-            if crossing != 0.0 && from_axis < axis_gap {
-                psi_rate = 0.0;
-                nodes.push(None);
-                continue;
+        let mut nodes = vec![None; count];
+        let stretches = self.stretches(count);
+        for (j, &[from, seed, to]) in stretches.iter().enumerate() {
+            let way = Way { meridian: self, silhouette, count, axis_gap };
+            let start = if j == 0 { self.first_azimuth() } else { self.azimuth };
+            let Some(first) = way.seed(seed, start, j > 0) else { continue };
+            way.follow(&mut nodes, first, seed..to);
+            if seed > from {
+                way.follow(&mut nodes, first, (from..=seed).rev());
             }
-            let guess = psi + psi_rate * ahead;
-            let node = self
-                .node(silhouette, alpha, guess, near)
-                .or_else(|| self.search(silhouette, alpha, near, 2.0 * axis_gap));
-            if let (Some(node), Some(before)) = (node, previous) {
-                let length = node.alpha - before.alpha;
-                if length < 1.5 * step {
-                    angle_rate = (node.angle - before.angle) / length;
-                    psi_rate = (node.psi - before.psi) / length;
-                } else {
-                    psi_rate = 0.0;
-                }
-            }
-            if let Some(node) = node {
-                psi = node.psi;
-                previous = Some(node);
-            }
-            nodes.push(node);
         }
         nodes
+    }
+
+    /// Stretches between crossings of the axis on a sphere: first node, the one to start from, end.
+    fn stretches(&self, count: usize) -> Vec<[usize; 3]> {
+        let angle = |i: usize| self.angle_on_sphere(self.alpha(i, count)) - self.axis_angle();
+        let crossings: Vec<usize> = (2..count)
+            .take_while(|&i| angle(i).abs() >= angle(i - 1).abs())
+            .filter(|&i| (angle(i) / PI).floor() != (angle(i - 1) / PI).floor())
+            .collect();
+        let bow = (1..count).find(|&i| angle(i).abs() < angle(i - 1).abs()).unwrap_or(count);
+        let mut stretches = vec![[0, 0, crossings.first().copied().unwrap_or(count)]];
+        for (j, &from) in crossings.iter().enumerate() {
+            let to = crossings.get(j + 1).copied();
+            // the angle's middle between the two ends
+            let end = to.unwrap_or(bow);
+            let middle = 0.5 * (angle(from) + angle(end - 1));
+            let off = |i: &usize| (angle(*i) - middle).abs();
+            let seed = (from..end).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(from);
+            stretches.push([from, seed, to.unwrap_or(count)]);
+        }
+        stretches
+    }
+
+    /// Launch coordinate of a node of the scan.
+    fn alpha(&self, i: usize, count: usize) -> f64 {
+        (i as f64 + 0.5) * (FRAC_PI_2 - GRAZING) / count as f64
+    }
+
+    /// Unwrapped exit angle of a sphere's ray.
+    fn angle_on_sphere(&self, alpha: f64) -> f64 {
+        let inside = (alpha.sin() / self.tracer.index().re).min(1.0).asin();
+        self.axis_angle() - 2.0 * alpha + 2.0 * f64::from(self.order) * inside
     }
 
     /// Search a ray of the plane at `α` over launch azimuths, for use beyond a crossing of the axis,
@@ -252,6 +270,54 @@ impl<'a> Meridian<'a> {
             last_step = size;
         }
         None
+    }
+}
+
+/// Following a meridian from node to node of a scan.
+struct Way<'m, 'a, 's> {
+    meridian: &'m Meridian<'a>,
+    silhouette: &'s Silhouette<'s>,
+    count: usize,
+    axis_gap: f64,
+}
+
+impl Way<'_, '_, '_> {
+    /// The node to start from, with the launch azimuth expected there.
+    fn seed(&self, i: usize, azimuth: f64, search: bool) -> Option<Node> {
+        let (m, s) = (self.meridian, self.silhouette);
+        let alpha = m.alpha(i, self.count);
+        let near = m.angle_on_sphere(alpha);
+        let close = |node: &Node| !search || (node.angle - near).abs() < 0.5;
+        m.node(s, alpha, azimuth, near)
+            .filter(close)
+            .or_else(|| m.search(s, alpha, near, 2.0 * self.axis_gap))
+    }
+
+    /// Go from `first` over the nodes of a range; stop inside the gap about the axis.
+    fn follow(
+        &self,
+        nodes: &mut [Option<Node>],
+        first: Node,
+        range: impl Iterator<Item = usize>,
+    ) {
+        let (m, s) = (self.meridian, self.silhouette);
+        let (mut before, mut psi_rate) = (first, 0.0);
+        for i in range {
+            let alpha = m.alpha(i, self.count);
+            let ahead = alpha - before.alpha;
+            let near = before.angle + m.angle_on_sphere(alpha) - m.angle_on_sphere(before.alpha);
+            let Some(node) = m.node(s, alpha, before.psi + psi_rate * ahead, near) else { continue };
+            if ahead != 0.0 {
+                psi_rate = (node.psi - before.psi) / ahead;
+            }
+            nodes[i] = Some(node);
+            before = node;
+            let turns = (node.angle - m.axis_angle()) / PI;
+            let crossing = turns.round();
+            if crossing != 0.0 && (turns - crossing).abs() * PI < self.axis_gap {
+                return;
+            }
+        }
     }
 }
 

@@ -41,19 +41,19 @@ pub struct RimLayout {
 }
 
 /// Lowest order served.
-pub const FIRST_ORDER: u32 = 2;
+pub const FIRST_ORDER: u32 = 3;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave.
-const FRESNEL_ZONES: f64 = 12.0;
+const FRESNEL_ZONES: f64 = 14.0;
 /// Wave zones `x^{-2/3}` beyond the last ray at which tunnelling has ended.
 const TUNNEL: f64 = 4.0;
 /// Real rays through which the polynomials pass.
 const RAYS: usize = 20;
 /// Knots per period of the wave against its reference.
-const KNOTS_PER_PERIOD: f64 = 8.0;
+const KNOTS_PER_PERIOD: f64 = 5.0;
 /// Samples of the integrand per period of its phase.
-const SAMPLES_PER_PERIOD: f64 = 3.0;
+const SAMPLES_PER_PERIOD: f64 = 1.8;
 
 /// Impact of the ray of a sphere's bow of this order, if there is one.
 fn bow(index: f64, order: u32) -> Option<f64> {
@@ -69,10 +69,25 @@ fn deviation_slope(index: f64, order: u32, b: f64) -> (f64, f64) {
     (2.0 / c.sqrt() - 2.0 * p / ct.sqrt(), 2.0 * b / c.powf(1.5) - 2.0 * p * b / ct.powf(1.5))
 }
 
+/// Total deviation on a sphere.
+fn deviation(index: f64, order: u32, b: f64) -> f64 {
+    let p = f64::from(order);
+    (p - 1.0) * PI + 2.0 * b.asin() - 2.0 * p * (b / index).asin()
+}
+
 /// Start and end of the taper for a particle like a sphere, deformed so much that rays of this order
-/// stray by `tangle`. `None` where the integral would reach too far inside.
-pub fn taper(index: f64, order: u32, size_parameter: f64, tangle: f64) -> Option<(f64, f64)> {
+/// stray by `tangle`; rays in it keep farther than `axis_gap` from the axis. `None` where the
+/// integral would reach too far inside, or too little is left for the taper.
+pub fn taper(
+    index: f64,
+    order: u32,
+    size_parameter: f64,
+    tangle: f64,
+    axis_gap: f64,
+) -> Option<(f64, f64)> {
     const DEEPEST: f64 = 0.3;
+    const FEWEST_WIDTHS: f64 = 2.0;
+    const FEWEST_ZONES: f64 = 5.0;
     let b = bow(index, order).filter(|_| order >= FIRST_ORDER)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
@@ -80,9 +95,25 @@ pub fn taper(index: f64, order: u32, size_parameter: f64, tangle: f64) -> Option
     if full < DEEPEST {
         return None;
     }
-    let (slope, _) = deviation_slope(index, order, full);
-    let fresnel = (size_parameter * slope.abs()).sqrt().recip();
-    Some(((full - FRESNEL_ZONES * fresnel).max(0.5 * full), full))
+    let zone = |b: f64| {
+        (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip()
+    };
+    let start = (full - FRESNEL_ZONES * zone(full)).max(0.5 * full);
+    let start = start.max(clear_of_axis(index, order, b, 1.25 * axis_gap)?);
+    let full = full.max(start + FEWEST_ZONES * zone(full));
+    (full < b - FEWEST_WIDTHS * airy).then_some((start, full))
+}
+
+/// Least impact from which on, to the bow's ray, a sphere's rays keep this far from the axis.
+fn clear_of_axis(index: f64, order: u32, bow: f64, gap: f64) -> Option<f64> {
+    const STEPS: u32 = 200;
+    let from_axis = |b: f64| {
+        let angle = deviation(index, order, b);
+        (angle - (angle / PI).round() * PI).abs()
+    };
+    let steps = (0..STEPS).map(|k| bow * (1.0 - f64::from(k) / f64::from(STEPS)));
+    let clear: Vec<f64> = steps.take_while(|&b| from_axis(b) > gap).collect();
+    clear.last().copied()
 }
 
 impl RimLayout {
@@ -108,13 +139,22 @@ impl RimLayout {
     /// Spread knots that serve all arcs of an order: from the ray at `start` past the bow, as far as
     /// its dark side reaches. `None` where they would reach the axis, where waves from all azimuths
     /// meet.
-    pub fn spread_knots(&mut self, arcs: &[Arc], index: f64, tangle: f64, x: f64) -> Option<()> {
+    pub fn spread_knots(
+        &mut self,
+        arcs: &[&Arc],
+        axis_gap: f64,
+        index: f64,
+        tangle: f64,
+        x: f64,
+    ) -> Option<()> {
+        const MOST_KNOTS: usize = 1500;
         const DARK_ZETA: f64 = 7.5;
         const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
         const NEAREST_AXIS: f64 = 0.03;
         const FARTHEST_PENUMBRA: f64 = 0.5;
         let order = arcs.first()?.meridian().order;
+        self.keeps_off_axis(arcs, axis_gap)?;
         let reaches: Vec<[f64; 2]> =
             arcs.iter().map(|a| a.reaches(self.start, self.full)).collect::<Option<_>>()?;
         let sense = reaches[0][0].signum();
@@ -131,22 +171,29 @@ impl RimLayout {
         let zone = (0.5 * x * deviation_slope(index, order, bow).1).cbrt().recip();
         let spare = 0.3 * tangle + zone + x.powf(-2.0 / 3.0);
         self.knots = knots([begin, longest, end], sense, [self.start, bow], spare, x);
+        if self.knots.len() > MOST_KNOTS {
+            return None;
+        }
         // waves from all azimuths meet at the axis
         for arc in arcs {
             let first = arc.ray_at(self.start)?.angle;
-            let near = |offset: f64| ((first + offset) / PI).round() * PI - first;
-            let axes = [near(0.0), near(0.0) + PI, near(0.0) - PI];
-            if axes[0].abs() < NEAREST_AXIS {
-                return None;
-            }
+            let nearest = (first / PI).round() * PI - first;
             self.knots.retain(|k| {
-                axes.iter().all(|axis| {
-                    let (from, to) = (axis.abs() - NEAREST_AXIS, axis.signum() * k[0]);
-                    to < from
-                })
+                [nearest - PI, nearest, nearest + PI]
+                    .iter()
+                    .all(|axis| axis.signum() * k[0] < axis.abs() - NEAREST_AXIS)
             });
         }
         (self.knots.len() > 4).then_some(())
+    }
+
+    /// `None` where rays in the taper leave too near the axis.
+    fn keeps_off_axis(&self, arcs: &[&Arc], axis_gap: f64) -> Option<()> {
+        let clear = |arc: &&Arc| {
+            let angle = arc.ray_at(self.start)?.angle;
+            ((angle - (angle / PI).round() * PI).abs() > 0.7 * axis_gap).then_some(())
+        };
+        arcs.iter().try_for_each(clear)
     }
 }
 
@@ -323,6 +370,7 @@ impl Rays {
             let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
             integrand.push(impact, path, matrix.map(|m| m * factor));
         }
+        integrand.fill_lanes();
         Some(integrand)
     }
 
@@ -390,8 +438,7 @@ fn row(arc: &Arc, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
     let across = meridian.across();
     let exit = &node.exit;
     let impact = exit.reference.dot(growing);
-    let minor = exit.dx[0].dot(growing) * exit.ds[1].dot(across)
-        - exit.dx[1].dot(growing) * exit.ds[0].dot(across);
+    let minor = meridian.spread_across(exit, node.angle);
     let outside = |m: &Meeting| {
         m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
     };
@@ -437,52 +484,48 @@ impl Integrand {
         }
     }
 
+    /// Samples of no weight, up to a whole number of lanes.
+    fn fill_lanes(&mut self) {
+        while !self.impact.len().is_multiple_of(LANES) {
+            self.push(0.0, 0.0, [Complex64::default(); 4]);
+        }
+    }
+
     /// `Σ F exp(ix(L - βϑ - W))`, and the same times β.
     fn sum(&self, angle: f64, reference: f64, x: f64) -> Sums {
-        let mut found = [0.0; 16];
-        sum(&self.impact, &self.path, &self.parts, angle, reference, x, &mut found);
+        let found = sum(self, angle, reference, x);
         let at = |k: usize| Complex64::new(found[k], found[k + 1]);
         [std::array::from_fn(|e| at(2 * e)), std::array::from_fn(|e| at(8 + 2 * e))]
     }
 }
 
+/// Samples handled side by side.
+const LANES: usize = 8;
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
-fn sum(
-    impact: &[f64],
-    path: &[f64],
-    parts: &[Vec<f64>; 8],
-    angle: f64,
-    reference: f64,
-    x: f64,
-    found: &mut [f64; 16],
-) {
-    const LANES: usize = 16;
+fn sum(integrand: &Integrand, angle: f64, reference: f64, x: f64) -> [f64; 16] {
     let per_turn = x / TAU;
-    for start in (0..impact.len()).step_by(LANES) {
-        let count = LANES.min(impact.len() - start);
-        let (mut sin, mut cos, mut weight) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        for k in 0..count {
-            let beta = impact[start + k];
-            let turns = per_turn * (path[start + k] - beta * angle - reference);
+    let mut sums = [[0.0; LANES]; 16];
+    let impacts: &[[f64; LANES]] = integrand.impact.as_chunks().0;
+    let paths: &[[f64; LANES]] = integrand.path.as_chunks().0;
+    let parts: [&[[f64; LANES]]; 8] = std::array::from_fn(|c| integrand.parts[c].as_chunks().0);
+    for (block, (impact, path)) in impacts.iter().zip(paths).enumerate() {
+        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let turns = per_turn * (path[k] - impact[k] * angle - reference);
             (sin[k], cos[k]) = sin_cos_turns(turns);
-            weight[k] = beta;
         }
         for element in 0..4 {
-            let re = &parts[2 * element][start..start + count];
-            let im = &parts[2 * element + 1][start..start + count];
-            let mut sums = [0.0; 4];
-            for k in 0..count {
+            let (re, im) = (&parts[2 * element][block], &parts[2 * element + 1][block]);
+            for k in 0..LANES {
                 let a = re[k] * cos[k] - im[k] * sin[k];
                 let b = re[k] * sin[k] + im[k] * cos[k];
-                sums[0] += a;
-                sums[1] += b;
-                sums[2] += a * weight[k];
-                sums[3] += b * weight[k];
+                sums[2 * element][k] += a;
+                sums[2 * element + 1][k] += b;
+                sums[8 + 2 * element][k] += a * impact[k];
+                sums[9 + 2 * element][k] += b * impact[k];
             }
-            found[2 * element] += sums[0];
-            found[2 * element + 1] += sums[1];
-            found[8 + 2 * element] += sums[2];
-            found[9 + 2 * element] += sums[3];
         }
     }
+    sums.map(|lanes| lanes.iter().sum())
 }
