@@ -59,10 +59,16 @@ impl BenchFigure<'_> {
             chart.draw_series(LineSeries::new(line.iter().copied(), colour.stroke_width(2)))?;
             chart.draw_series(line.iter().map(|&p| Circle::new(p, 4, colour.filled())))?;
         }
+        let mut labelled: Vec<(f64, f64)> = Vec::new();
         for p in &of_case {
-            if p.method == Method::PaperUnfiltered {
-                continue; // the same grids as with the filter
+            // without a filter the grids are the same; labels must not lie on one another
+            let near = |&(x, y): &(f64, f64)| {
+                (x / p.seconds).ln().abs() < 0.4 && (y / p.error).ln().abs() < 0.2
+            };
+            if p.method == Method::PaperUnfiltered || labelled.iter().any(near) {
+                continue;
             }
+            labelled.push((p.seconds, p.error));
             let label = Text::new(format!("{}", p.setting), (6, -16), (FONT, 13));
             chart.draw_series([EmptyElement::at((p.seconds, p.error)) + label])?;
         }
