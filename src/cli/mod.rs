@@ -2,6 +2,7 @@
 //! output, progress bars and `anyhow`.
 
 mod batch;
+mod bench;
 mod compare;
 mod export;
 mod info;
@@ -74,6 +75,7 @@ enum Command {
     Compare(compare::CompareArgs),
     Render(render::RenderArgs),
     Batch(batch::BatchArgs),
+    Bench(bench::BenchArgs),
 }
 
 /// Parse the command line, run the command, map errors to exit codes.
@@ -103,6 +105,7 @@ fn run(command: Command) -> anyhow::Result<()> {
         Command::Compare(args) => compare::run(args),
         Command::Render(args) => render::run(args),
         Command::Batch(args) => batch::run(args),
+        Command::Bench(args) => bench::run(args),
     }
 }
 

@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 use gonio::medium::Medium;
 use gonio::optics::AmplitudeMatrix;
-use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, last_order};
+use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, Symmetry, last_order};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::{RaindropModel, Shape};
@@ -291,21 +291,23 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     let diffraction = auto && args.diffraction != DiffractionName::None;
     let plan =
         Plan::direct(shape, 1.0, engine, orders, diffraction, args.tolerance, args.rays_across);
-    let directions: Vec<(f64, f64)> =
-        radians(job).into_iter().map(|theta| (theta, job.azimuth)).collect();
-    let amplitudes = simulate::scatter(&plan, job.index, job.size_parameter, &directions);
+    // The backward direction rides along: rays are traced once.
+    let asked = radians(job).into_iter().map(|theta| (theta, job.azimuth));
+    let directions: Vec<(f64, f64)> = asked.chain([(PI, job.azimuth)]).collect();
+    let mut amplitudes = simulate::scatter(&plan, job.index, job.size_parameter, &directions);
+    let back = amplitudes.pop().unwrap_or_default();
     let mut integrals = integrals(&plan, job, diffraction);
-    let back = simulate::scatter(&plan, job.index, job.size_parameter, &[(PI, job.azimuth)]);
-    integrals.q_back = Some(4.0 * back[0].s11() / job.size_parameter.powi(2));
+    integrals.q_back = Some(4.0 * back.s11() / job.size_parameter.powi(2));
     Ok(Answer { amplitudes, diffraction_included: diffraction, ..integrals })
 }
 
 /// Efficiencies of the ray picture: extinction is twice the shadow when diffraction is in.
 fn integrals(plan: &Plan, job: &Job, diffraction: bool) -> Answer {
     const GRID: usize = 64;
+    let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { GRID };
     let last = plan.orders.iter().copied().max().unwrap_or(0);
     let tracer = Tracer::new(&plan.shape, job.index, job.size_parameter, last);
-    let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, GRID));
+    let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes));
     let shadow = plan.shape.silhouette().area() / PI;
     let peak = if diffraction { 1.0 } else { 0.0 };
     let scattered = 1.0 - fates.absorbed;

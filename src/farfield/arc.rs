@@ -304,7 +304,7 @@ impl<'a> Arc<'a> {
             if 2 * k == count || 2 * k == count + 1 {
                 focal_lines = node.exit.focal_lines;
             }
-            knots.push(self.plain_knot(&node, layout.rim.as_ref()));
+            knots.push(self.plain_knot(&node, layout));
         }
         let from_axis = matches!(start, Landmark::Axial);
         Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })
@@ -405,11 +405,15 @@ impl<'a> Arc<'a> {
         spread * (across.max(NEAREST) / across)
     }
 
-    fn plain_knot(&self, node: &Node, rim: Option<&RimLayout>) -> Knot {
+    fn plain_knot(&self, node: &Node, layout: &ArcLayout) -> Knot {
         let (_, growing) = self.meridian.frame(node.angle);
         let transfer = self.meridian.transfer(&node.exit, node.angle);
+        let rim = layout.rim.as_ref();
         let share = rim.map_or(1.0, |rim| 1.0 - rim.weight(node.alpha.sin()));
-        let size = share / self.bounded_spread(node).sqrt();
+        // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
+        // that focus at infinity, as about the axis for indices of 2 and 4.
+        let spread = self.bounded_spread(node).max(4.0 / layout.size_parameter.powi(2));
+        let size = share / spread.sqrt();
         let mut knot = [0.0; CHANNELS];
         knot[0] = node.angle;
         knot[1] = node.exit.path;

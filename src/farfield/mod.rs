@@ -12,6 +12,7 @@ pub mod fold;
 pub mod forward_diffraction;
 pub mod forward_peak;
 pub mod gaussian_filter;
+pub mod huygens_fresnel;
 pub mod interference;
 pub mod meridian;
 pub mod patch;

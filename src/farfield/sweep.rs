@@ -80,7 +80,7 @@ fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f6
     for k in 1..knots.len() {
         let (a, b) = (to_theta(knots[k - 1][0]), to_theta(knots[k][0]));
         let (mut low, high) = (a.min(b), a.max(b));
-        if high < 0.0 || low > PI {
+        if high < -AXIAL || low > PI + AXIAL {
             continue;
         }
         // Half-open intervals; the axial ray itself belongs to the near side alone.

@@ -173,7 +173,7 @@ impl<'a, T: Scalar> Line<'a, T> {
 
     /// The first of the two roots about the point of greatest depth.
     fn near_root(&self, bound: f64) -> Option<T> {
-        let (inside, guess) = self.inside()?;
+        let (inside, guess) = self.inside(bound)?;
         let mut t = guess;
         let (mut low, mut high) = (-1.01 * bound, inside.re());
         for _ in 0..2 * NEWTON_STEPS {
@@ -202,7 +202,7 @@ impl<'a, T: Scalar> Line<'a, T> {
     /// A point of the line inside the body, and a first guess of where the line enters. Far from
     /// the rim the foot of the perpendicular serves; near it, the deepest point. `None` when the
     /// line misses the body.
-    fn inside(&self) -> Option<(T, T)> {
+    fn inside(&self, bound: f64) -> Option<(T, T)> {
         let middle = -self.half_q1;
         let distance = self.q0 - self.half_q1 * self.half_q1;
         let core = self.shape.rough_core();
@@ -219,12 +219,44 @@ impl<'a, T: Scalar> Line<'a, T> {
                 break;
             }
         }
+        // Newton's method finds any extremum: on the flattened side of a large drop also the hump
+        // of `F` between two dips, or one far outside.
+        let outside = |t: T| !((t - middle).size() <= bound && self.at(t).0.re() <= 0.0);
+        if T::REAL && (outside(t) || self.slope_and_bend(t).1.re() <= 0.0) {
+            t = T::real(self.deepest_of_many(middle.re(), bound));
+        }
         let depth = self.at(t).0;
         if T::REAL && depth.re() > 0.0 {
             return None;
         }
         let bend = self.slope_and_bend(t).1;
+        if T::REAL && bend.re() <= 0.0 {
+            return Some((t, T::real(0.5 * (t.re() - bound))));
+        }
         Some((t, t - (-(depth * 2.0) / bend).root()))
+    }
+
+    /// The first dip of `F` below zero along the line, or its deepest point: by brute force.
+    fn deepest_of_many(&self, middle: f64, bound: f64) -> f64 {
+        const POINTS: i32 = 256;
+        let place = |i: f64| middle + bound * i / f64::from(POINTS);
+        let value = |i: f64| self.at(T::real(place(i))).0.re();
+        let mut best = (f64::INFINITY, 0.0);
+        for i in -POINTS..=POINTS {
+            let f = value(f64::from(i));
+            if f < best.0 {
+                best = (f, f64::from(i));
+            } else if best.0 < 0.0 {
+                break;
+            }
+        }
+        // Ternary search about the lowest point.
+        let (mut low, mut high) = (best.1 - 1.0, best.1 + 1.0);
+        for _ in 0..80 {
+            let third = (high - low) / 3.0;
+            if value(low + third) < value(high - third) { high -= third } else { low += third }
+        }
+        place(0.5 * (low + high))
     }
 
     /// First and second derivative of `F` along the line.
