@@ -8,19 +8,20 @@
 use super::fold::{Fold, PAIR_CHANNELS};
 use super::meridian::{GRAZING, Meridian, Node};
 use super::rim::{RimLayout, rim_wave};
+use super::sweep::parabola_slopes;
 use crate::math::chebyshev::Chebyshev;
 use crate::shape::Silhouette;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Numbers at a knot: angle, then
-/// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`;
+/// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`, their slopes;
 /// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element);
 /// wave: reference path, its slope, S1 … S4 against it, their slopes by angle.
 pub const CHANNELS: usize = 21;
 /// First channel of amplitudes in a plain knot (S3 and S4 follow at +4).
 pub const PLAIN_AMPLITUDE: usize = 3;
-/// First channel of the slopes of amplitudes in the knot of a wave.
-pub const WAVE_SLOPE: usize = 11;
+/// First channel of the slopes of amplitudes by angle in a plain knot and in that of a wave.
+pub const SLOPE: usize = 11;
 /// First channel of g₀ in a pair knot; g₁ follows at +8.
 pub const PAIR_AMPLITUDE: usize = 5;
 
@@ -305,6 +306,10 @@ impl<'a> Arc<'a> {
                 focal_lines = node.exit.focal_lines;
             }
             knots.push(self.plain_knot(&node, layout));
+        }
+        let slopes = parabola_slopes(&knots);
+        for (knot, slope) in knots.iter_mut().zip(slopes) {
+            knot[SLOPE..SLOPE + 8].copy_from_slice(&slope[PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 8]);
         }
         let from_axis = matches!(start, Landmark::Axial);
         Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })

@@ -7,7 +7,7 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
 use super::arc::{
-    Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE,
+    Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, SLOPE,
 };
 use super::rim::{self, RimLayout};
 use super::meridian::{Meridian, axial_ray};
@@ -274,8 +274,7 @@ fn fold_index(k: i64, count: usize) -> (usize, bool) {
 /// Sign of each channel in the mirror: S3 and S4 change theirs.
 fn parity(kind: &Kind) -> Knot {
     let odd: &[usize] = match kind {
-        Kind::Plain { .. } => &[PLAIN_AMPLITUDE + 4],
-        Kind::Wave => &[PLAIN_AMPLITUDE + 4, WAVE_SLOPE + 4],
+        Kind::Plain { .. } | Kind::Wave => &[PLAIN_AMPLITUDE + 4, SLOPE + 4],
         Kind::Pair { .. } => &[PAIR_AMPLITUDE + 4, PAIR_AMPLITUDE + 12],
     };
     std::array::from_fn(|c| if odd.iter().any(|&o| (o..o + 4).contains(&c)) { -1.0 } else { 1.0 })

@@ -16,7 +16,7 @@
 //! The integral takes over from single rays with a smooth weight: rays well inside the rim are left
 //! to the plain segments of the meridian, with the weight's complement.
 
-use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE};
+use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, Segment, SLOPE};
 use super::meridian::Node;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::phase::sin_cos_turns;
@@ -299,7 +299,7 @@ fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f6
         let rate = by_angle + shrink * value;
         let c = PLAIN_AMPLITUDE + 2 * element;
         (knot[c], knot[c + 1]) = (value.re, value.im);
-        let c = WAVE_SLOPE + 2 * element;
+        let c = SLOPE + 2 * element;
         (knot[c], knot[c + 1]) = (rate.re, rate.im);
     }
     knot

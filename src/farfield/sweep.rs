@@ -1,10 +1,11 @@
 //! The sweep: adding a segment's waves to a column of samples, forward in memory.
 //!
 //! Between two knots path and amplitudes are cubics in the angle. A phase is carried in turns; whole
-//! turns fall away exactly. The loops are plain arithmetic over arrays, compiled for several
-//! instruction sets and chosen at run time.
+//! turns fall away exactly. Sines and cosines are computed for eight samples side by side, then the
+//! eight parts of S1 … S4 side by side for each; the loops are plain arithmetic over arrays, compiled
+//! for several instruction sets and chosen at run time.
 
-use super::arc::{Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, WAVE_SLOPE};
+use super::arc::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use crate::math::airy;
 use crate::math::phase::sin_cos_turns;
 use crate::optics::AmplitudeMatrix;
@@ -12,23 +13,24 @@ use multiversion::multiversion;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Amplitudes of one column: real and imaginary parts of S1 … S4 by sample.
+/// Amplitudes of one column by sample: real and imaginary parts of S1 … S4.
 #[derive(Clone, Debug)]
 pub struct Sums {
-    pub parts: [Vec<f64>; 8],
+    rows: Vec<[f64; 8]>,
 }
 
 impl Sums {
     pub fn new(samples: usize) -> Self {
-        Self { parts: std::array::from_fn(|_| vec![0.0; samples]) }
+        Self { rows: vec![[0.0; 8]; samples] }
     }
 
     /// As amplitude matrices.
     pub fn amplitudes(&self) -> Vec<AmplitudeMatrix> {
-        let at = |k: usize, i: usize| Complex64::new(self.parts[2 * k][i], self.parts[2 * k + 1][i]);
-        (0..self.parts[0].len())
-            .map(|i| AmplitudeMatrix { s1: at(0, i), s2: at(1, i), s3: at(2, i), s4: at(3, i) })
-            .collect()
+        let matrix = |row: &[f64; 8]| {
+            let at = |k: usize| Complex64::new(row[2 * k], row[2 * k + 1]);
+            AmplitudeMatrix { s1: at(0), s2: at(1), s3: at(2), s4: at(3) }
+        };
+        self.rows.iter().map(matrix).collect()
     }
 }
 
@@ -39,8 +41,8 @@ pub enum Side {
     Far,
 }
 
-/// Samples handled at once; small enough for registers and the first cache.
-const BLOCK: usize = 64;
+/// Samples whose phases are computed side by side.
+const LANES: usize = 8;
 /// Angle within which a sample counts as the axial ray.
 const AXIAL: f64 = 1e-9;
 
@@ -52,9 +54,8 @@ pub fn add_segment(
     side: Side,
     size_parameter: f64,
 ) {
-    let angle_of = |knot: &Knot| knot[0];
     let (first, last) = match (segment.knots.first(), segment.knots.last()) {
-        (Some(a), Some(b)) => (angle_of(a), angle_of(b)),
+        (Some(a), Some(b)) => (a[0], b[0]),
         _ => return,
     };
     let (low, high) = (first.min(last), first.max(last));
@@ -64,124 +65,199 @@ pub fn add_segment(
         Side::Far => (low / TAU, (high + PI) / TAU),
     };
     for m in from.floor() as i64..=to.ceil() as i64 {
-        sweep(sums, theta, segment, side, TAU * m as f64, size_parameter);
+        sweep(&mut sums.rows, theta, segment, side, TAU * m as f64, size_parameter);
     }
 }
 
-/// One pass over the knots, for one whole number of turns.
+/// One pass over the pieces between knots in the order of the samples, for one whole number of turns.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
-fn sweep(sums: &mut Sums, theta: &[f64], segment: &Segment, side: Side, turn: f64, x: f64) {
+fn sweep(
+    rows: &mut [[f64; 8]],
+    theta: &[f64],
+    segment: &Segment,
+    side: Side,
+    turn: f64,
+    x: f64,
+) {
     let sign = if side == Side::Near { 1.0 } else { -1.0 };
-    // θ of an unwrapped angle
-    let to_theta = |angle: f64| sign * (angle - turn);
     let knots = &segment.knots;
+    let pieces = knots.len() - 1;
+    // θ grows with the unwrapped angle on the near side
+    let forward = (knots[pieces][0] - knots[0][0]) * sign > 0.0;
     let mut slopes: Option<Vec<Knot>> = None;
-    let axial = matches!(segment.kind, Kind::Plain { from_axis: true, .. });
-    for k in 1..knots.len() {
-        let (a, b) = (to_theta(knots[k - 1][0]), to_theta(knots[k][0]));
-        let (mut low, high) = (a.min(b), a.max(b));
+    let mut at = usize::MAX;
+    for step in 0..pieces {
+        let k = if forward { step } else { pieces - 1 - step };
+        let (a, b) = (sign * (knots[k][0] - turn), sign * (knots[k + 1][0] - turn));
+        let (low, high) = (a.min(b), a.max(b));
         if high < -AXIAL || low > PI + AXIAL {
             continue;
         }
-        // Half-open intervals; the axial ray itself belongs to the near side alone.
-        let mut end = theta.partition_point(|&t| t < high);
-        if axial && k == 1 {
-            if side == Side::Near {
-                low -= AXIAL;
-                if a > b {
-                    end = theta.partition_point(|&t| t <= high + AXIAL);
-                }
-            } else {
-                low += if a < b { AXIAL } else { 0.0 };
-                if a > b {
-                    end = theta.partition_point(|&t| t < high - AXIAL);
-                }
-            }
+        let axial = k == 0 && matches!(segment.kind, Kind::Plain { from_axis: true, .. });
+        let (low, high) = if axial { with_axial(low, high, side, a > b) } else { (low, high) };
+        // samples of [low, high), walked to from those of the piece before
+        let mut begin = if at == usize::MAX { theta.partition_point(|&t| t < low) } else { at };
+        while begin > 0 && theta[begin - 1] >= low {
+            begin -= 1;
         }
-        let begin = theta.partition_point(|&t| t < low);
-        if begin >= end {
+        while begin < theta.len() && theta[begin] < low {
+            begin += 1;
+        }
+        let mut end = begin;
+        while end < theta.len() && theta[end] < high {
+            end += 1;
+        }
+        at = end;
+        if begin == end {
             continue;
         }
-        let slopes = slopes.get_or_insert_with(|| match segment.kind {
-            Kind::Wave => knots.iter().map(wave_slopes).collect(),
-            _ => amplitude_slopes(knots),
-        });
-        let channels = if matches!(segment.kind, Kind::Pair { .. }) { PAIR } else { SINGLE };
-        let piece = Piece::new(&knots[k - 1], &knots[k], &slopes[k - 1], &slopes[k], channels);
-        let mut at = begin;
-        while at < end {
-            let count = BLOCK.min(end - at);
-            let mut t = [0.0; BLOCK];
-            for (t, &theta) in t.iter_mut().zip(&theta[at..at + count]) {
-                *t = (sign * theta + turn - piece.start) * piece.inverse;
+        let samples = Samples { theta: &theta[begin..end], sign, turn };
+        let rows = &mut rows[begin..end];
+        match segment.kind {
+            Kind::Plain { focal_lines, .. } => {
+                let turns = -0.25 * f64::from(1 + focal_lines);
+                single(rows, &samples, &knots[k], &knots[k + 1], x, turns);
             }
-            match segment.kind {
-                Kind::Plain { focal_lines, .. } => {
-                    let turns = -0.25 * f64::from(1 + focal_lines);
-                    plain(sums, at, &t[..count], &piece, x, turns);
-                }
-                Kind::Pair { focal_lines } => {
-                    let turns = -0.25 - 0.125 * f64::from(focal_lines);
-                    pair(sums, at, &t[..count], &piece, x, turns);
-                }
-                Kind::Wave => plain(sums, at, &t[..count], &piece, x, 0.0),
+            Kind::Wave => single(rows, &samples, &knots[k], &knots[k + 1], x, 0.0),
+            Kind::Pair { focal_lines } => {
+                let turns = -0.25 - 0.125 * f64::from(focal_lines);
+                let slopes = slopes.get_or_insert_with(|| parabola_slopes(knots));
+                pair(rows, &samples, [&knots[k], &knots[k + 1]], &slopes[k..], x, turns);
             }
-            at += count;
         }
     }
 }
 
-/// Cubics between two knots, in `t` from 0 to 1.
-struct Piece {
-    start: f64,
-    inverse: f64,
-    path: [f64; 4],
-    zeta: [f64; 4],
-    amplitude: [[f64; 4]; PAIR],
-}
-
-/// Channels from the first amplitude of a plain knot on: S1 … S4; or ζ̂ and its slope, g₀ and g₁.
-const SINGLE: usize = 8;
-const PAIR: usize = 18;
-
-impl Piece {
-    #[inline(always)]
-    fn new(a: &Knot, b: &Knot, sa: &Knot, sb: &Knot, channels: usize) -> Self {
-        let h = b[0] - a[0];
-        let hermite = |v0: f64, s0: f64, v1: f64, s1: f64| {
-            let (s0, s1, d) = (s0 * h, s1 * h, v1 - v0);
-            [v0, s0, 3.0 * d - 2.0 * s0 - s1, s0 + s1 - 2.0 * d]
-        };
-        let mut amplitude = [[0.0; 4]; PAIR];
-        for (k, cubic) in amplitude.iter_mut().enumerate().take(channels) {
-            let c = k + PLAIN_AMPLITUDE;
-            *cubic = hermite(a[c], sa[c], b[c], sb[c]);
-        }
-        Self {
-            start: a[0],
-            inverse: 1.0 / h,
-            path: hermite(a[1], a[2], b[1], b[2]),
-            zeta: hermite(a[3], a[4], b[3], b[4]),
-            amplitude,
-        }
-    }
-
-    #[inline(always)]
-    fn pair_amplitude(&self, channel: usize) -> &[f64; 4] {
-        &self.amplitude[channel + PAIR_AMPLITUDE - PLAIN_AMPLITUDE]
-    }
-}
-
-/// Slopes of the amplitudes of a wave, which stand in its knots.
-fn wave_slopes(knot: &Knot) -> Knot {
-    let mut slopes = [0.0; super::arc::CHANNELS];
-    slopes[PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 8].copy_from_slice(&knot[WAVE_SLOPE..WAVE_SLOPE + 8]);
-    slopes
-}
-
-/// Slopes of all channels at all knots, from parabolas through neighbours.
+/// The piece next to the axial ray: that ray itself belongs to the near side alone, also where
+/// rounding puts the sample on the axis a little beside it.
 #[inline(always)]
-fn amplitude_slopes(knots: &[Knot]) -> Vec<Knot> {
+fn with_axial(low: f64, high: f64, side: Side, falling: bool) -> (f64, f64) {
+    let end = if falling { 1.0 } else { 0.0 };
+    if side == Side::Near {
+        return (low - AXIAL, high + end * 2.0 * AXIAL);
+    }
+    (low + (1.0 - end) * AXIAL, high - end * AXIAL)
+}
+
+/// Samples of one piece.
+struct Samples<'a> {
+    theta: &'a [f64],
+    sign: f64,
+    turn: f64,
+}
+
+impl Samples<'_> {
+    /// Place between the knots, from 0 to 1, of samples from `start` on; beyond the last, 0.
+    #[inline(always)]
+    fn places(&self, start: usize, from: f64, inverse: f64) -> ([f64; LANES], usize) {
+        let mut t = [0.0; LANES];
+        let count = LANES.min(self.theta.len() - start);
+        for k in 0..count {
+            t[k] = (self.sign * self.theta[start + k] + self.turn - from) * inverse;
+        }
+        (t, count)
+    }
+}
+
+/// Coefficients of the cubic with these values and slopes at 0 and 1.
+#[inline(always)]
+fn hermite(v0: f64, s0: f64, v1: f64, s1: f64) -> [f64; 4] {
+    let d = v1 - v0;
+    [v0, s0, 3.0 * d - 2.0 * s0 - s1, s0 + s1 - 2.0 * d]
+}
+
+#[inline(always)]
+fn cubic(c: &[f64; 4], t: f64) -> f64 {
+    c[0] + t * (c[1] + t * (c[2] + t * c[3]))
+}
+
+/// Weights of the values and slopes (per unit of angle) at both knots, `h` radians apart.
+#[inline(always)]
+fn hermite_weights(t: f64, h: f64) -> [f64; 4] {
+    let u = 1.0 - t;
+    [(1.0 + 2.0 * t) * u * u, t * u * u * h, t * t * (3.0 - 2.0 * t), -t * t * u * h]
+}
+
+/// One wave per sample.
+#[inline(always)]
+fn single(rows: &mut [[f64; 8]], samples: &Samples, a: &Knot, b: &Knot, x: f64, turns: f64) {
+    let h = b[0] - a[0];
+    let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
+    let per_turn = x / TAU;
+    let [va, sa, vb, sb] = [
+        part(a, PLAIN_AMPLITUDE),
+        part(a, SLOPE),
+        part(b, PLAIN_AMPLITUDE),
+        part(b, SLOPE),
+    ];
+    for (block, rows) in rows.chunks_mut(LANES).enumerate() {
+        let (t, _) = samples.places(LANES * block, a[0], 1.0 / h);
+        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let (s, c) = sin_cos_turns(per_turn * cubic(&path, t[k]) + turns);
+            (sin[k], cos[k]) = (x * s, x * c);
+        }
+        for (k, row) in rows.iter_mut().enumerate() {
+            let w = hermite_weights(t[k], h);
+            let mut v = [0.0; 8];
+            for c in 0..8 {
+                v[c] = w[0] * va[c] + w[1] * sa[c] + w[2] * vb[c] + w[3] * sb[c];
+            }
+            for e in 0..4 {
+                row[2 * e] += v[2 * e] * cos[k] - v[2 * e + 1] * sin[k];
+                row[2 * e + 1] += v[2 * e] * sin[k] + v[2 * e + 1] * cos[k];
+            }
+        }
+    }
+}
+
+/// Eight channels of a knot from one on.
+#[inline(always)]
+fn part(knot: &Knot, first: usize) -> [f64; 8] {
+    std::array::from_fn(|c| knot[first + c])
+}
+
+/// The uniform Airy formula for two rays.
+#[inline(always)]
+fn pair(
+    rows: &mut [[f64; 8]],
+    samples: &Samples,
+    [a, b]: [&Knot; 2],
+    slopes: &[Knot],
+    x: f64,
+    turns: f64,
+) {
+    let sixth = x.powf(1.0 / 6.0);
+    let two_thirds = sixth.powi(4);
+    let (scale0, scale1) = (x * PI.sqrt() * sixth, x * PI.sqrt() / sixth);
+    let per_turn = x / TAU;
+    let h = b[0] - a[0];
+    let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
+    let zeta = hermite(a[3], a[4] * h, b[3], b[4] * h);
+    for (block, rows) in rows.chunks_mut(LANES).enumerate() {
+        let (t, _) = samples.places(LANES * block, a[0], 1.0 / h);
+        for (k, row) in rows.iter_mut().enumerate() {
+            let (s, c) = sin_cos_turns(per_turn * cubic(&path, t[k]) + turns);
+            let (ai, slope) = airy::ai(-two_thirds * cubic(&zeta, t[k]));
+            let (w0, w1) = (scale0 * ai, scale1 * slope);
+            let w = hermite_weights(t[k], h);
+            let g = |channel: usize| {
+                let i = PAIR_AMPLITUDE + channel;
+                w[0] * a[i] + w[1] * slopes[0][i] + w[2] * b[i] + w[3] * slopes[1][i]
+            };
+            for e in 0..4 {
+                // w0 g₀ + i w1 g₁
+                let re = w0 * g(2 * e) - w1 * g(9 + 2 * e);
+                let im = w0 * g(2 * e + 1) + w1 * g(8 + 2 * e);
+                row[2 * e] += re * c - im * s;
+                row[2 * e + 1] += re * s + im * c;
+            }
+        }
+    }
+}
+
+/// Slopes of all channels at all knots by angle, from parabolas through neighbours.
+pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
     let last = knots.len() - 1;
     if last < 2 {
         let h = 1.0 / (knots[last][0] - knots[0][0]);
@@ -198,58 +274,11 @@ fn amplitude_slopes(knots: &[Knot]) -> Vec<Knot> {
                 -(2.0 * x - a[0] - c[0]) / (ab * bc),
                 (2.0 * x - a[0] - b[0]) / (ac * bc),
             ];
-            std::array::from_fn(|i| weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i])
+            let mut slope = [0.0; CHANNELS];
+            for i in 0..CHANNELS {
+                slope[i] = weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i];
+            }
+            slope
         })
         .collect()
-}
-
-#[inline(always)]
-fn cubic(c: &[f64; 4], t: f64) -> f64 {
-    c[0] + t * (c[1] + t * (c[2] + t * c[3]))
-}
-
-/// One ray per sample.
-#[inline(always)]
-fn plain(sums: &mut Sums, at: usize, t: &[f64], piece: &Piece, x: f64, turns: f64) {
-    let mut sin = [0.0; BLOCK];
-    let mut cos = [0.0; BLOCK];
-    let per_turn = x / TAU;
-    for ((&t, sin), cos) in t.iter().zip(&mut sin).zip(&mut cos) {
-        let (s, c) = sin_cos_turns(per_turn * cubic(&piece.path, t) + turns);
-        (*sin, *cos) = (x * s, x * c);
-    }
-    let mut parts = sums.parts.iter_mut();
-    for element in 0..4 {
-        let (re, im) = (&piece.amplitude[2 * element], &piece.amplitude[2 * element + 1]);
-        let (Some(to_re), Some(to_im)) = (parts.next(), parts.next()) else { return };
-        let (to_re, to_im) = (&mut to_re[at..at + t.len()], &mut to_im[at..at + t.len()]);
-        for k in 0..t.len() {
-            let (a, b) = (cubic(re, t[k]), cubic(im, t[k]));
-            to_re[k] += a * cos[k] - b * sin[k];
-            to_im[k] += a * sin[k] + b * cos[k];
-        }
-    }
-}
-
-/// The uniform Airy formula for two rays.
-#[inline(always)]
-fn pair(sums: &mut Sums, at: usize, t: &[f64], piece: &Piece, x: f64, turns: f64) {
-    let sixth = x.powf(1.0 / 6.0);
-    let two_thirds = sixth.powi(4);
-    let (scale0, scale1) = (x * PI.sqrt() * sixth, x * PI.sqrt() / sixth);
-    let per_turn = x / TAU;
-    for (k, &t) in t.iter().enumerate() {
-        let (s, c) = sin_cos_turns(per_turn * cubic(&piece.path, t) + turns);
-        let (ai, slope) = airy::ai(-two_thirds * cubic(&piece.zeta, t));
-        let (w0, w1) = (scale0 * ai, scale1 * slope);
-        for element in 0..4 {
-            let g = |channel: usize| cubic(piece.pair_amplitude(channel), t);
-            let (a, b) = (g(2 * element), g(2 * element + 1));
-            let (d, e) = (g(8 + 2 * element), g(9 + 2 * element));
-            // w0 g₀ + i w1 g₁
-            let (re, im) = (w0 * a - w1 * e, w0 * b + w1 * d);
-            sums.parts[2 * element][at + k] += re * c - im * s;
-            sums.parts[2 * element + 1][at + k] += re * s + im * c;
-        }
-    }
 }
