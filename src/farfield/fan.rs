@@ -57,8 +57,10 @@ pub struct FanSettings<'a> {
     pub azimuths: &'a [f64],
 }
 
-/// Azimuth steps per half-turn, before refinement by the tolerance.
+/// Azimuth steps per half-turn, before refinement by the tolerance: for orders of plain rays and
+/// pairs, and for those with rim waves, whose phases change faster.
 const HALF_TURN_STEPS: usize = 40;
+const HALF_TURN_STEPS_RIM: usize = 60;
 /// Neighbours in the interpolation over azimuth.
 const STENCIL: usize = 8;
 /// Largest argument of the Airy functions on the lit side: there the two rays are well apart.
@@ -147,7 +149,8 @@ impl OrderFan {
     fn new(tracer: &Tracer, order: u32, settings: &FanSettings) -> Option<Self> {
         let centre = axial_ray(tracer, order);
         let azimuths = azimuths(tracer, settings);
-        let places = azimuths.places(settings);
+        let steps = if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
+        let places = azimuths.places(settings, steps);
         let density = 32.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let tangle = tangle(tracer, order);
         let x = settings.size_parameter;
@@ -259,9 +262,9 @@ fn rim_layout(
     tangle: f64,
     axis_gap: f64,
 ) -> Option<RimLayout> {
-    let (start, full) = rim::taper(tracer.index().re, order, x, tangle, axis_gap)?;
     let rotational = tracer.shape().rotational_symmetry();
-    Some(RimLayout::new(start, full, rotational))
+    let marks = rim::taper(tracer.index().re, order, x, tangle, axis_gap, rotational)?;
+    Some(RimLayout::new(marks, rotational))
 }
 
 /// Index of the meridian at step `k`, whether it is a mirror image.
@@ -309,13 +312,13 @@ fn azimuths(tracer: &Tracer, settings: &FanSettings) -> Azimuths {
 }
 
 impl Azimuths {
-    fn places(&self, settings: &FanSettings) -> Vec<f64> {
+    fn places(&self, settings: &FanSettings, half_turn_steps: usize) -> Vec<f64> {
         match self {
             Azimuths::Any => vec![0.0],
             Azimuths::Listed(list) => list.clone(),
             Azimuths::Even => {
                 let finer = (0.01 / settings.tolerance).powf(0.125).clamp(0.8, 2.0);
-                let steps = (HALF_TURN_STEPS as f64 * finer).ceil() as usize;
+                let steps = (half_turn_steps as f64 * finer).ceil() as usize;
                 (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()
             }
         }

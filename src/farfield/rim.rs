@@ -33,15 +33,21 @@ pub struct RimLayout {
     /// Launch points `sin α` at which the weight leaves 0 and reaches 1.
     pub start: f64,
     pub full: f64,
-    /// Knots: angles from that of the ray at `start`, and the slope of the reference path there
-    /// relative to that ray's impact.
+    /// Launch point `sin α` of a sphere's bow.
+    pub bow: f64,
+    /// Knots: angles from the anchor, and the slope of the reference path there relative to its
+    /// impact.
     pub knots: Vec<[f64; 2]>,
     /// Degree of the polynomials through real rays.
-    pub degree: usize,
+    degree: usize,
+    /// Share of the stretch from `start` to the rim that is left out before the last ray.
+    spare: f64,
 }
 
-/// Lowest order served.
-pub const FIRST_ORDER: u32 = 3;
+/// Lowest order served, where nothing depends on azimuth and elsewhere: the secondary bow's wave
+/// changes too fast with azimuth to be interpolated, and two rays serve it nearly as well.
+const FIRST_ORDER: u32 = 3;
+const FIRST_ORDER_BY_AZIMUTH: u32 = 4;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
@@ -53,7 +59,7 @@ const TUNNEL: f64 = 4.0;
 /// Real rays through which the polynomials pass.
 const RAYS: usize = 20;
 /// Knots per period of the wave against its reference.
-const KNOTS_PER_PERIOD: f64 = 5.0;
+const KNOTS_PER_PERIOD: f64 = 4.0;
 /// Samples of the integrand per period of its phase.
 const SAMPLES_PER_PERIOD: f64 = 1.8;
 
@@ -77,7 +83,7 @@ fn deviation(index: f64, order: u32, b: f64) -> f64 {
     (p - 1.0) * PI + 2.0 * b.asin() - 2.0 * p * (b / index).asin()
 }
 
-/// Start and end of the taper for a particle like a sphere, deformed so much that rays of this order
+/// Start and end of the taper, and the bow's ray, for a particle like a sphere, deformed so much that rays of this order
 /// stray by `tangle`; rays in it keep farther than `axis_gap` from the axis. `None` where the
 /// integral would reach too far inside, or too little is left for the taper.
 pub fn taper(
@@ -86,11 +92,13 @@ pub fn taper(
     size_parameter: f64,
     tangle: f64,
     axis_gap: f64,
-) -> Option<(f64, f64)> {
+    rotational: bool,
+) -> Option<[f64; 3]> {
     const DEEPEST: f64 = 0.3;
     const FEWEST_WIDTHS: f64 = 2.0;
     const FEWEST_ZONES: f64 = 5.0;
-    let b = bow(index, order).filter(|_| order >= FIRST_ORDER)?;
+    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_BY_AZIMUTH };
+    let b = bow(index, order).filter(|_| order >= first)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
     let full = b - AIRY_WIDTHS * airy - tangle;
@@ -104,7 +112,7 @@ pub fn taper(
     let start = (full - zones * zone(full)).max(0.5 * full);
     let start = start.max(clear_of_axis(index, order, b, 1.25 * axis_gap)?);
     let full = full.max(start + FEWEST_ZONES * zone(full));
-    (full < b - FEWEST_WIDTHS * airy).then_some((start, full))
+    (full < b - FEWEST_WIDTHS * airy).then_some([start, full, b])
 }
 
 /// Least impact from which on, to the bow's ray, a sphere's rays keep this far from the axis.
@@ -122,9 +130,25 @@ fn clear_of_axis(index: f64, order: u32, bow: f64, gap: f64) -> Option<f64> {
 impl RimLayout {
     /// A layout without knots yet. Where nothing depends on azimuth, path and angles are analytic in
     /// the launch point to the rim and beyond; else only nearly so, and low degrees must do.
-    pub fn new(start: f64, full: f64, rotational: bool) -> Self {
-        let degree = if rotational { RAYS - 1 } else { 8 };
-        Self { start, full, knots: Vec::new(), degree }
+    pub fn new([start, full, bow]: [f64; 3], rotational: bool) -> Self {
+        let degree = if rotational { RAYS - 1 } else { 5 };
+        // the last rays meet the surface so flatly that their differentials lose digits, and on
+        // deformed particles path and angles have a part there that is odd in the grazing angle
+        let spare = if rotational { 0.002 } else { 0.02 };
+        Self { start, full, bow, knots: Vec::new(), degree, spare }
+    }
+
+    /// For each knot the part of the reference path that is due to the knots' own slopes.
+    fn turned_paths(&self) -> Vec<f64> {
+        let step = |w: &[[f64; 2]]| 0.5 * (w[0][1] + w[1][1]) * (w[1][0] - w[0][0]);
+        let mut paths = vec![0.0];
+        for pair in self.knots.windows(2) {
+            paths.push(paths[paths.len() - 1] + step(pair));
+        }
+        let nearest = |k: &usize| self.knots[*k][0].abs();
+        let zero = (0..paths.len()).min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(0);
+        let offset = paths[zero];
+        paths.iter().map(|path| path - offset).collect()
     }
 
     /// Weight of the integral for a launch point `sin α`: an infinitely smooth step.
@@ -156,31 +180,29 @@ impl RimLayout {
         const LONGEST_DARK: f64 = 0.45;
         const NEAREST_AXIS: f64 = 0.03;
         const FARTHEST_PENUMBRA: f64 = 0.5;
-        let order = arcs.first()?.meridian().order;
         self.keeps_off_axis(arcs, axis_gap)?;
-        let reaches: Vec<[f64; 2]> =
-            arcs.iter().map(|a| a.reaches(self.start, self.full)).collect::<Option<_>>()?;
-        let sense = reaches[0][0].signum();
-        let bow_side = reaches.iter().map(|r| sense * r[0]);
-        let (shortest, longest) =
-            bow_side.fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(r), h.max(r)));
+        let marks: Vec<Marks> =
+            arcs.iter().map(|arc| Marks::of(arc, self)).collect::<Option<_>>()?;
+        let sense = marks[0].sense;
+        let least = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MAX, f64::min);
+        let most = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MIN, f64::max);
+        let order = arcs.first()?.meridian().order;
         let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
-        let end = longest + dark + (longest - shortest);
         // beyond the last ray its penumbra dies away with x^{1/3}
-        let last = reaches.iter().map(|r| sense * r[1]).fold(f64::MAX, f64::min);
         let penumbra = (PENUMBRA * x.cbrt().recip()).min(FARTHEST_PENUMBRA);
-        let begin = (last - penumbra).min(0.0);
-        let bow = bow(index, order)?;
-        let zone = (0.5 * x * deviation_slope(index, order, bow).1).cbrt().recip();
-        let spare = 0.3 * tangle + zone + x.powf(-2.0 / 3.0);
-        self.knots = knots([begin, longest, end], sense, [self.start, bow], spare, x);
+        let start = least(|m| m.start);
+        let begin = start.min(least(|m| m.last) - penumbra);
+        let bow_at = most(|m| m.farthest);
+        let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
+        let spare = 0.1 * tangle + zone + x.powf(-2.0 / 3.0);
+        let stretch = [begin, start, bow_at, bow_at + dark];
+        self.knots = knots(stretch, sense, [self.start, self.bow], spare, x);
         if self.knots.len() > MOST_KNOTS {
             return None;
         }
         // waves from all azimuths meet at the axis
-        for arc in arcs {
-            let first = arc.ray_at(self.start)?.angle;
-            let nearest = (first / PI).round() * PI - first;
+        for mark in &marks {
+            let nearest = (mark.anchor / PI).round() * PI - mark.anchor;
             self.knots.retain(|k| {
                 [nearest - PI, nearest, nearest + PI]
                     .iter()
@@ -207,11 +229,40 @@ fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
     h.cbrt() * x.powf(-2.0 / 3.0)
 }
 
-/// Knots from `begin` to `end` (radians towards the bow, which is at `bow_at`, from the ray at the
-/// start of the taper), close enough for waves whose impact lies between that of the inner ray and
-/// the rim, give or take `spare`. `start` and `bow` are the impacts of those rays.
+/// Angles on one meridian, from that of the anchor on, counted towards the bow.
+struct Marks {
+    /// Unwrapped angle of the anchor: where the integrand's phase stands still at the bow's impact.
+    anchor: f64,
+    /// Direction of growing impacts: that of unwrapped angles, or against it.
+    sense: f64,
+    /// The ray at the start of the taper, the farthest ray, the last ray.
+    start: f64,
+    farthest: f64,
+    last: f64,
+}
+
+impl Marks {
+    fn of(arc: &Arc, layout: &RimLayout) -> Option<Self> {
+        let first = arc.ray_at(layout.start)?.angle;
+        let [farthest, last] = arc.reaches(layout.start, layout.full)?;
+        let sense = farthest.signum();
+        let anchor = Rays::through(arc, layout)?.anchor(layout.bow).angle;
+        let start = sense * (first - anchor);
+        Some(Self {
+            anchor,
+            sense,
+            start,
+            farthest: start + sense * farthest,
+            last: start + sense * last,
+        })
+    }
+}
+
+/// Knots from `begin` to `end` (radians from the anchor, towards the bow), close enough for waves
+/// whose impact lies between that of the inner ray and the rim, give or take `spare`. The inner ray
+/// goes from `start_at` to the bow at `bow_at`, its impact from `start` to `bow`.
 fn knots(
-    [begin, bow_at, end]: [f64; 3],
+    [begin, start_at, bow_at, end]: [f64; 4],
     sense: f64,
     [start, bow]: [f64; 2],
     spare: f64,
@@ -221,10 +272,10 @@ fn knots(
     let mut knots = Vec::new();
     loop {
         // towards the bow the inner ray's angle runs like a square
-        let share = (at / bow_at).clamp(0.0, 1.0);
+        let share = ((at - start_at) / (bow_at - start_at)).clamp(0.0, 1.0);
         let inner = bow - (bow - start) * (1.0 - share).sqrt();
         let half_band = 0.5 * (1.0 - inner);
-        knots.push([sense * at, inner + half_band - start]);
+        knots.push([sense * at, inner + half_band - bow]);
         if at >= end {
             return knots;
         }
@@ -269,15 +320,12 @@ pub fn rim_wave(
     let scale = (size_parameter / TAU).sqrt();
     // towards the rim impacts grow in size
     let sense = impact(&first).signum();
-    let mut before = *layout.knots.first()?;
-    let mut path = first.exit.path - (impact(&first) + sense * before[1]) * before[0];
+    let anchor = rays.anchor(layout.bow);
     let mut knots = Vec::with_capacity(layout.knots.len());
-    for &[offset, depth] in &layout.knots {
-        let angle = first.angle + offset;
-        let mean = impact(&first) + sense * 0.5 * (before[1] + depth);
-        path -= mean * (offset - before[0]);
-        before = [offset, depth];
-        let slope = -(impact(&first) + sense * depth);
+    for (&[offset, shift], &turned) in layout.knots.iter().zip(&layout.turned_paths()) {
+        let angle = anchor.angle + offset;
+        let path = anchor.path - anchor.impact * offset - sense * turned;
+        let slope = -(anchor.impact + sense * shift);
         let factor = phase * scale / angle.sin().abs().sqrt();
         let sums = integrand.sum(angle, path, size_parameter);
         knots.push(knot(angle, path, slope, factor, &sums, size_parameter));
@@ -305,14 +353,27 @@ fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f6
     knot
 }
 
+/// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
+/// which their phase stands still.
+struct Anchor {
+    angle: f64,
+    impact: f64,
+    path: f64,
+}
+
 impl Rays {
+    /// The anchor for a launch point. It varies smoothly with azimuth, also where no real ray leaves.
+    fn anchor(&self, sin: f64) -> Anchor {
+        let ((path, path_rate), (impact, rate)) = (self.at(PATH, sin), self.at(IMPACT, sin));
+        let angle = path_rate / rate;
+        Anchor { angle, impact, path: path - impact * angle }
+    }
+
     /// Trace real rays from the start of the taper to the last that leaves.
     fn through(arc: &Arc, layout: &RimLayout) -> Option<Self> {
         let meridian = arc.meridian();
         let order = meridian.order as usize;
-        // the last rays meet the surface so flatly that their differentials lose digits
-        const SPARE: f64 = 0.002;
-        let to = arc.last_ray().alpha.sin() - SPARE * (1.0 - layout.start);
+        let to = arc.last_ray().alpha.sin() - layout.spare * (1.0 - layout.start);
         let points = chebyshev::points(RAYS, layout.start, to);
         let mut meetings: Vec<Meeting> = Vec::new();
         let mut rows = Vec::with_capacity(RAYS);
