@@ -136,7 +136,7 @@ impl<'a> Arc<'a> {
             }
         }
         let last = *self.nodes.last()?;
-        self.last = self.end_after(last);
+        self.last = self.end_after(last, step);
         if self.last.alpha > last.alpha {
             self.nodes.push(self.last);
         }
@@ -181,11 +181,13 @@ impl<'a> Arc<'a> {
         Some([sense * farthest, self.last.angle - first.angle])
     }
 
-    /// The last ray that still leaves, beyond a node.
-    fn end_after(&self, last: Node) -> Node {
-        let (mut good, mut bad) = (last, FRAC_PI_2 - GRAZING);
-        if let Some(rim) = self.meridian.node(self.silhouette, bad, last.psi, last.angle) {
-            return rim;
+    /// The last ray that still leaves, within a step beyond a node. Rays farther out may leave
+    /// again, but total reflection parts them from this stretch.
+    fn end_after(&self, last: Node, step: f64) -> Node {
+        let rim = FRAC_PI_2 - GRAZING;
+        let (mut good, mut bad) = (last, (last.alpha + 1.01 * step).min(rim));
+        if let Some(node) = self.meridian.node(self.silhouette, bad, last.psi, last.angle) {
+            return node;
         }
         while bad - good.alpha > END_TOLERANCE {
             let middle = 0.5 * (bad + good.alpha);
