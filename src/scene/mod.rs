@@ -20,10 +20,12 @@ mod tests;
 mod validate;
 
 pub use choice::{Choice, Named, ShapeName};
+pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{LightKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::Grid;
 pub use read::SceneText;
+pub(crate) use read::{line_at, read_limited};
 pub use size::{TableSize, human_bytes};
 
 use crate::medium::Medium;
