@@ -288,10 +288,15 @@ fn parse_slice(text: &str) -> Result<(usize, usize), String> {
 /// Ask the system to end this process when its parent ends: a killed worker would orphan it.
 #[cfg(target_os = "linux")]
 fn die_with_parent() -> anyhow::Result<()> {
+    let parent = std::os::unix::process::parent_id();
     // SAFETY: a plain system call with constant arguments.
     let status = unsafe { libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGTERM) };
     if status != 0 {
         return Err(UsageError("--die-with-parent: refused by the system".into()).into());
+    }
+    // A parent that ended before the call sends no signal.
+    if std::os::unix::process::parent_id() != parent {
+        anyhow::bail!("the parent process has ended (--die-with-parent)");
     }
     Ok(())
 }
