@@ -147,8 +147,11 @@ mod tests {
     use super::*;
     use std::io::Write;
 
-    /// A file with one collection at 48 whose objects are (index, claimed size, bytes there).
-    fn file_with(objects: &[(u16, u64, usize)]) -> File {
+    /// Index, claimed size, bytes that are there.
+    type Object = (u16, u64, usize);
+
+    /// A file with one collection at 48.
+    fn file_with(objects: &[Object]) -> File {
         let mut body = Vec::new();
         for &(index, size, there) in objects {
             body.extend(index.to_le_bytes());
@@ -175,7 +178,7 @@ mod tests {
 
     #[test]
     fn what_stops_the_library_is_refused() {
-        let cases: [(&[(u16, u64, usize)], &str); 5] = [
+        let cases: [(&[Object], &str); 5] = [
             (&[(1, 8, 8), (0, 0, 16)], "free space of no length: the library's endless loop"),
             (&[(0, 8, 16)], "free space shorter than its header"),
             (&[(1, 4096, 8)], "an object that ends outside"),
