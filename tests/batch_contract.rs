@@ -77,6 +77,7 @@ fn temperature_and_model_with_a_paired_radius() {
     assert_eq!(table.slabs[1].values, alone.slabs[1].values);
     assert_eq!(table.slabs[1].index, alone.slabs[1].index);
     // The paired value is a coordinate along the radius.
+    drop(sweep);
     let file = hdf5::File::open(folder.path().join("all.h5")).unwrap();
     let sun = file.dataset("sun_elevation").unwrap().read_raw::<f64>().unwrap();
     assert_eq!(sun, [10.0, 20.0, 30.0]);

@@ -132,7 +132,9 @@ impl<'a> TableBuilder<'a> {
                     Column::K if value > 0.0 => "at most 1e4",
                     Column::K | Column::Absorbance => "0 or more",
                 };
-                let message = format!("{name} = {value:?} must be {bound}");
+                // Three hundred digits would help nobody.
+                let value = if value < 1e15 { value.to_string() } else { format!("{value:e}") };
+                let message = format!("{name} = {value} must be {bound}");
                 return Err(file_error(self.path, Some(line), message));
             }
             values.push(value);
