@@ -143,3 +143,22 @@ fn wrong_requests_have_code_2() {
         assert!(message.contains(expected), "{arguments:?}: {message}");
     }
 }
+
+#[test]
+fn too_few_moments_are_told() {
+    let (_keep, folder) = tables();
+    let note = |moments: &str| {
+        let arguments = ["export", "drop.h5", "--to", "sasktran2", "--moments", moments];
+        let output = Command::new(env!("CARGO_BIN_EXE_gonio"))
+            .args([&arguments[..], &["-o", "m.nc", "--overwrite"]].concat())
+            .current_dir(&folder)
+            .output()
+            .unwrap();
+        assert!(output.status.success());
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    // 2 pi 20 um / 0.45 um = 279.3.
+    let few = note("128");
+    assert!(few.contains("128 Legendre moments; size parameter 279 has about 575"), "{few}");
+    assert_eq!(note("600"), "");
+}

@@ -14,13 +14,13 @@ mod shard;
 mod sweep;
 
 pub use merge::merge;
-pub use plan::{BatchPlan, PlannedTable};
+pub use plan::{BatchPlan, PlannedTable, Selection};
 pub use run::{Event, run};
 pub use shard::{Outcome, Shard, ShardStatus, compute};
 pub use sweep::{Axis, Sweep};
 
 use crate::hdf5::TableError;
-use crate::scene::SceneError;
+use crate::scene::{SceneError, human_bytes};
 use crate::simulate::SimulateError;
 use std::path::PathBuf;
 
@@ -36,6 +36,11 @@ pub enum BatchError {
         missing
     )]
     Missing { missing: usize, total: usize, first: String },
+    #[error(
+        "{id}: needs about {} of memory, the limit is {}; take fewer angles, or raise --memory-limit",
+        human_bytes(*needed), human_bytes(*limit)
+    )]
+    Memory { id: String, needed: u64, limit: u64 },
     #[error("{id}: not a finite number in the phase function at {wavelength_nm} nm")]
     Numerical { id: String, wavelength_nm: f64 },
     #[error(transparent)]
@@ -53,7 +58,10 @@ impl BatchError {
     /// retry), 75 temporary (retry).
     pub fn exit_code(&self) -> u8 {
         match self {
-            BatchError::Plan { .. } | BatchError::Invalid { .. } | BatchError::Scene(_) => 2,
+            BatchError::Plan { .. }
+            | BatchError::Invalid { .. }
+            | BatchError::Memory { .. }
+            | BatchError::Scene(_) => 2,
             BatchError::Missing { .. } => 1,
             BatchError::Numerical { .. } => 5,
             BatchError::Simulate(SimulateError::Energy { .. }) => 5,
@@ -85,5 +93,6 @@ fn is_temporary(error: &std::io::Error) -> bool {
 }
 
 fn invalid(field: &str, value: impl ToString, accepted: &str) -> BatchError {
-    BatchError::Invalid { field: field.into(), value: value.to_string(), accepted: accepted.into() }
+    let value = crate::scene::shown(&value.to_string());
+    BatchError::Invalid { field: field.into(), value, accepted: accepted.into() }
 }

@@ -9,13 +9,16 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader, BufWriter, Write};
+use std::io::{BufRead, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Hexadecimal digits of an id: 80 bits, so that a million ids collide with 4e-13.
 const ID_DIGITS: usize = 20;
 /// From this many tables on, shards lie in 256 folders.
 const MANY_TABLES: usize = 4096;
+
+/// Longest line of a plan, bytes.
+const LONGEST_LINE: u64 = 16 << 20;
 
 /// One line of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,7 +38,7 @@ pub struct PlannedTable {
     pub scene: String,
 }
 
-/// A plan in memory.
+/// A plan in memory, or those of its tables that were asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BatchPlan {
     pub tables: Vec<PlannedTable>,
@@ -60,6 +63,18 @@ impl PlannedTable {
         let name = format!("{}.h5", self.id);
         // Ids are checked to be ASCII when a plan is read.
         if tables < MANY_TABLES { folder.join(name) } else { folder.join(&self.id[..2]).join(name) }
+    }
+
+    /// The table of line `number`.
+    fn parse(text: &[u8], number: usize) -> Result<PlannedTable, String> {
+        let table: PlannedTable =
+            serde_json::from_slice(text).map_err(|error| error.to_string())?;
+        table.check()?;
+        if table.index == number {
+            Ok(table)
+        } else {
+            Err(format!("it is number {} of the plan", table.index))
+        }
     }
 
     fn check(&self) -> Result<(), String> {
@@ -129,51 +144,97 @@ impl BatchPlan {
     /// # Errors
     /// When the file cannot be read or a line is no planned table; the line is named.
     pub fn read(path: &Path) -> Result<BatchPlan, BatchError> {
+        BatchPlan::read_selected(path, Selection::All)
+    }
+
+    /// Read some lines of a plan. All of it goes into the digest, but only what is selected is
+    /// parsed: a plan of ten thousand tables is read in milliseconds for one of them.
+    ///
+    /// # Errors
+    /// As for [`BatchPlan::read`], and when there is no table of a wanted id.
+    pub fn read_selected(path: &Path, selection: Selection<'_>) -> Result<BatchPlan, BatchError> {
         let wrong = |number: usize, message: String| BatchError::Plan {
             path: path.to_path_buf(),
             message: format!("line {}: {message}", number + 1),
         };
         let io = |source| BatchError::Io { path: path.to_path_buf(), source };
-        let file = BufReader::new(File::open(path).map_err(io)?);
+        let mut file = BufReader::with_capacity(1 << 16, File::open(path).map_err(io)?);
         let mut hash = Sha256::new();
-        let mut tables = Vec::new();
-        for (number, text) in file.lines().enumerate() {
-            let text = text.map_err(|error| wrong(number, error.to_string()))?;
-            let table: PlannedTable =
-                serde_json::from_str(&text).map_err(|error| wrong(number, error.to_string()))?;
-            table.check().map_err(|message| wrong(number, message))?;
-            if table.index != number {
-                return Err(wrong(number, format!("it is number {} of the plan", table.index)));
+        let (mut tables, mut line, mut lines) = (Vec::new(), Vec::new(), 0);
+        loop {
+            line.clear();
+            let read = file.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut line);
+            if read.map_err(|error| wrong(lines, error.to_string()))? == 0 {
+                break;
             }
-            hash.update(text.as_bytes());
+            let text = line.strip_suffix(b"\n").unwrap_or(&line);
+            if line.len() as u64 == LONGEST_LINE {
+                return Err(wrong(lines, format!("longer than {LONGEST_LINE} bytes")));
+            }
+            hash.update(text);
             hash.update(b"\n");
-            tables.push(table);
+            if selection.may_be(lines, text) {
+                let table = PlannedTable::parse(text, lines);
+                let table = table.map_err(|message| wrong(lines, message))?;
+                if selection.is(&table) {
+                    tables.push(table);
+                }
+            }
+            lines += 1;
         }
-        let Some(first) = tables.first() else {
-            let message = "the plan is empty".to_string();
-            return Err(BatchError::Plan { path: path.to_path_buf(), message });
+        let plan = BatchPlan { digest: hexadecimal(&hash.finalize(), 64), tables };
+        plan.check(lines, selection).map_err(|message| match selection {
+            Selection::Id(id) if plan.tables.is_empty() && lines > 0 => {
+                invalid("--id", id, "an id of the plan")
+            }
+            _ => BatchError::Plan { path: path.to_path_buf(), message },
+        })?;
+        Ok(plan)
+    }
+
+    /// Do as many lines as the file has fill the shape of the sweep?
+    fn check(&self, lines: usize, selection: Selection<'_>) -> Result<(), String> {
+        let Some(first) = self.tables.first() else {
+            return match selection {
+                Selection::Slice { .. } if lines > 0 => Ok(()),
+                Selection::Id(_) if lines > 0 => Err("no such table".into()),
+                _ => Err("the plan is empty".into()),
+            };
         };
         let expected = first.shape.iter().try_fold(1usize, |product, &n| product.checked_mul(n));
-        let same = tables.iter().all(|table| table.shape == first.shape);
-        if expected != Some(tables.len()) || !same {
-            let message = format!("{} lines do not fill {:?}", tables.len(), first.shape);
-            return Err(BatchError::Plan { path: path.to_path_buf(), message });
+        let same = self.tables.iter().all(|table| table.shape == first.shape);
+        if expected != Some(lines) || !same {
+            return Err(format!("{lines} lines do not fill {:?}", first.shape));
         }
-        Ok(BatchPlan { digest: hexadecimal(&hash.finalize(), 64), tables })
+        Ok(())
     }
+}
 
+/// Which tables of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Selection<'a> {
+    All,
     /// The table of this id.
-    ///
-    /// # Errors
-    /// When there is none.
-    pub fn by_id(&self, id: &str) -> Result<&PlannedTable, BatchError> {
-        let found = self.tables.iter().find(|table| table.id == id);
-        found.ok_or_else(|| invalid("--id", id, "an id of the plan"))
+    Id(&'a str),
+    /// Every `parts`-th table, beginning with `number` (from 0).
+    Slice {
+        number: usize,
+        parts: usize,
+    },
+}
+
+impl Selection<'_> {
+    /// False where the text of a line alone tells that it is not wanted.
+    fn may_be(self, number: usize, text: &[u8]) -> bool {
+        match self {
+            Selection::All => true,
+            Selection::Id(id) => memchr::memmem::find(text, id.as_bytes()).is_some(),
+            Selection::Slice { number: first, parts } => number % parts.max(1) == first,
+        }
     }
 
-    /// The part `number` of `parts` (numbers from 0): every `parts`-th table.
-    pub fn slice(&self, number: usize, parts: usize) -> impl Iterator<Item = &PlannedTable> {
-        self.tables.iter().skip(number).step_by(parts.max(1))
+    fn is(self, table: &PlannedTable) -> bool {
+        !matches!(self, Selection::Id(id) if id != table.id)
     }
 }
 

@@ -22,6 +22,7 @@ pub enum Event {
 }
 
 /// Compute what is missing of `tables` into `folder`; `report` hears of each table as it ends.
+/// Tables that together would take more than `memory` bytes are not computed at once.
 ///
 /// # Errors
 /// When the folder cannot be made. Failures of single tables are reported as events.
@@ -29,20 +30,21 @@ pub fn run(
     plan: &BatchPlan,
     tables: &[&PlannedTable],
     folder: &Path,
+    memory: Option<u64>,
     mut report: impl FnMut(Event),
 ) -> Result<(), BatchError> {
     std::fs::create_dir_all(folder)
         .map_err(|source| BatchError::Io { path: folder.to_path_buf(), source })?;
     remove_leftovers(folder);
     let next = AtomicUsize::new(0);
-    let lanes = rayon::current_num_threads().clamp(1, tables.len().max(1));
+    let lanes = lanes(tables, memory)?;
     let (sender, receiver) = mpsc::channel();
     std::thread::scope(|scope| {
         for _ in 0..lanes {
             let (sender, next) = (sender.clone(), &next);
             scope.spawn(move || {
                 while let Some(table) = tables.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let event = match compute(plan, table, folder) {
+                    let event = match compute(plan, table, folder, memory) {
                         Ok(shard) => Event::Done(shard),
                         Err(error) => Event::Failed { id: table.id.clone(), error },
                     };
@@ -56,6 +58,15 @@ pub fn run(
         receiver.into_iter().for_each(&mut report);
     });
     Ok(())
+}
+
+/// How many tables to compute at once: one per core, fewer where they are large. Tables of a sweep
+/// have the same angles, so the first one speaks for all.
+fn lanes(tables: &[&PlannedTable], memory: Option<u64>) -> Result<usize, BatchError> {
+    let most = rayon::current_num_threads().clamp(1, tables.len().max(1));
+    let (Some(first), Some(memory)) = (tables.first(), memory) else { return Ok(most) };
+    let needed = first.scene()?.table_size().working_memory();
+    Ok(most.min((memory / needed).max(1) as usize))
 }
 
 /// Remove temporary files that killed processes left: those of shards, an hour old, whose process

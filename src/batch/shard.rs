@@ -3,6 +3,7 @@
 use super::BatchError;
 use super::plan::{BatchPlan, PlannedTable};
 use crate::hdf5::{TableError, TableReader, TableWriter, WriteOptions};
+use crate::scene::Scene;
 use crate::simulate;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -55,11 +56,18 @@ impl PlannedTable {
     }
 }
 
-/// Compute the table of a line into `folder`, unless it is there already.
+/// Compute the table of a line into `folder`, unless it is there already; `memory` is the limit of
+/// what it may take, bytes.
 ///
 /// # Errors
-/// When the scene cannot be computed or the file not be written; nothing half-written is left.
-pub fn compute(plan: &BatchPlan, table: &PlannedTable, folder: &Path) -> Result<Shard, BatchError> {
+/// When the scene cannot be computed, needs more memory, or the file cannot be written; nothing
+/// half-written is left.
+pub fn compute(
+    plan: &BatchPlan,
+    table: &PlannedTable,
+    folder: &Path,
+    memory: Option<u64>,
+) -> Result<Shard, BatchError> {
     let start = Instant::now();
     let path = table.file(folder);
     let status = table.status(folder);
@@ -70,7 +78,12 @@ pub fn compute(plan: &BatchPlan, table: &PlannedTable, folder: &Path) -> Result<
             std::fs::create_dir_all(parent)
                 .map_err(|source| BatchError::Io { path: parent.to_path_buf(), source })?;
         }
-        match write(plan, table, &path, status == ShardStatus::Invalid) {
+        let scene = table.scene()?;
+        let needed = scene.table_size().working_memory();
+        if let Some(limit) = memory.filter(|limit| needed > *limit) {
+            return Err(BatchError::Memory { id: table.id.clone(), needed, limit });
+        }
+        match write(plan, (table, &scene), &path, status == ShardStatus::Invalid) {
             // Another process was faster; its file is the same.
             Err(BatchError::Table(TableError::Exists { .. }))
                 if table.status(folder) == ShardStatus::Done =>
@@ -87,13 +100,12 @@ pub fn compute(plan: &BatchPlan, table: &PlannedTable, folder: &Path) -> Result<
 
 fn write(
     plan: &BatchPlan,
-    table: &PlannedTable,
+    (table, scene): (&PlannedTable, &Scene),
     path: &Path,
     overwrite: bool,
 ) -> Result<(), BatchError> {
-    let scene = table.scene()?;
     // The content of a file named by its content must not depend on the way it came about.
-    let header = simulate::header(&scene, String::new())?;
+    let header = simulate::header(scene, String::new())?;
     let options = WriteOptions {
         bit_round: scene.bit_round,
         overwrite,
@@ -105,7 +117,7 @@ fn write(
         ..WriteOptions::default()
     };
     let mut writer = TableWriter::create(path, &header, options)?;
-    simulate::simulate(&scene, |index, slab| {
+    simulate::simulate(scene, |index, slab| {
         if slab.values.iter().any(|value| !value.is_finite()) {
             let wavelength_nm = slab.wavelength * 1e9;
             return Err(BatchError::Numerical { id: table.id.clone(), wavelength_nm });

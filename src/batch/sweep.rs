@@ -1,6 +1,8 @@
 //! From a sweep file to its points: which values are swept, and the scene of each point.
 
 use super::{BatchError, invalid};
+use crate::scene::{line_at, read_limited};
+use std::path::Path;
 use toml::{Table, Value};
 
 /// Most points of a sweep.
@@ -34,13 +36,24 @@ pub struct Sweep {
 }
 
 impl Sweep {
+    /// Read a sweep file.
+    ///
+    /// # Errors
+    /// When it cannot be read, is too large for a sweep, and as for [`Sweep::parse`].
+    pub fn load(path: &Path) -> Result<Sweep, BatchError> {
+        let wrong = |error: String| BatchError::Plan { path: path.to_path_buf(), message: error };
+        let text = read_limited(path).map_err(|error| wrong(error.to_string()))?;
+        Sweep::parse(&text).map_err(|error| wrong(error.to_string()))
+    }
+
     /// Read the text of a sweep file.
     ///
     /// # Errors
     /// When the text is no TOML, a range is wrong, or paired lists differ in length.
     pub fn parse(text: &str) -> Result<Sweep, BatchError> {
         let mut fixed: Table = text.parse().map_err(|error: toml::de::Error| {
-            invalid("sweep file", "not TOML", error.to_string().trim())
+            let line = error.span().map_or(0, |span| line_at(text, span.start));
+            invalid("line", line, &error.message().trim().replace('\n', ", "))
         })?;
         let zip = zip_groups(fixed.remove("sweep"))?;
         let mut axes: Vec<Axis> = Vec::new();

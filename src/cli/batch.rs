@@ -1,8 +1,9 @@
 //! `gonio batch`: many tables, on one machine or many.
 
 use super::UsageError;
+use super::memory::MemoryFlag;
 use clap::{Args, Subcommand};
-use gonio::batch::{BatchPlan, Event, PlannedTable, ShardStatus, Sweep};
+use gonio::batch::{BatchPlan, Event, PlannedTable, Selection, ShardStatus, Sweep};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -81,6 +82,8 @@ struct ShardArgs {
     /// End when the parent process ends
     #[arg(long)]
     die_with_parent: bool,
+    #[command(flatten)]
+    memory: MemoryFlag,
 }
 
 #[derive(Args)]
@@ -108,6 +111,8 @@ struct MergeArgs {
 struct RunArgs {
     #[command(flatten)]
     place: Place,
+    #[command(flatten)]
+    memory: MemoryFlag,
 }
 
 pub fn run(args: BatchArgs) -> anyhow::Result<()> {
@@ -121,10 +126,7 @@ pub fn run(args: BatchArgs) -> anyhow::Result<()> {
 }
 
 fn plan(args: &PlanArgs) -> anyhow::Result<()> {
-    let path = args.sweep.display();
-    let text = std::fs::read_to_string(&args.sweep)
-        .map_err(|error| UsageError(format!("{path}: {error}")))?;
-    let sweep = Sweep::parse(&text).map_err(|error| UsageError(format!("{path}: {error}")))?;
+    let sweep = Sweep::load(&args.sweep)?;
     let plan = BatchPlan::from_sweep(&sweep)?;
     plan.write(&args.output, args.overwrite)?;
     if args.json {
@@ -144,14 +146,15 @@ fn shard(args: &ShardArgs) -> anyhow::Result<()> {
     if args.die_with_parent {
         die_with_parent()?;
     }
-    let plan = read_plan(&args.place.plan)?;
-    let tables: Vec<&PlannedTable> = match (&args.id, args.slice) {
-        (Some(id), _) => vec![plan.by_id(id)?],
-        (None, Some((number, parts))) => plan.slice(number, parts).collect(),
+    let selection = match (&args.id, args.slice) {
+        (Some(id), _) => Selection::Id(id),
+        (None, Some((number, parts))) => Selection::Slice { number, parts },
         (None, None) => return Err(UsageError("give --id or --slice".into()).into()),
     };
-    for table in tables {
-        let shard = gonio::batch::compute(&plan, table, &args.place.dir)?;
+    let plan = read_plan(&args.place.plan, selection)?;
+    let limit = args.memory.limit();
+    for table in &plan.tables {
+        let shard = gonio::batch::compute(&plan, table, &args.place.dir, limit)?;
         if args.place.json {
             println!("{}", serde_json::to_string(&shard)?);
         } else {
@@ -163,7 +166,7 @@ fn shard(args: &ShardArgs) -> anyhow::Result<()> {
 }
 
 fn status(args: &StatusArgs) -> anyhow::Result<()> {
-    let plan = read_plan(&args.place.plan)?;
+    let plan = read_plan(&args.place.plan, Selection::All)?;
     let found: Vec<(&PlannedTable, ShardStatus)> =
         plan.tables.iter().map(|table| (table, table.status(&args.place.dir))).collect();
     let of = |wanted: ShardStatus| -> Vec<&str> {
@@ -192,7 +195,7 @@ fn status(args: &StatusArgs) -> anyhow::Result<()> {
 }
 
 fn merge(args: &MergeArgs) -> anyhow::Result<()> {
-    let plan = read_plan(&args.place.plan)?;
+    let plan = read_plan(&args.place.plan, Selection::All)?;
     let (dir, output) = (&args.place.dir, &args.output);
     gonio::batch::merge(&plan, dir, output, args.allow_missing, args.overwrite)?;
     let bytes = std::fs::metadata(output)?.len();
@@ -207,12 +210,12 @@ fn merge(args: &MergeArgs) -> anyhow::Result<()> {
 
 fn run_all(args: &RunArgs) -> anyhow::Result<()> {
     let start = Instant::now();
-    let plan = read_plan(&args.place.plan)?;
+    let plan = read_plan(&args.place.plan, Selection::All)?;
     let tables: Vec<&PlannedTable> = plan.tables.iter().collect();
     let bar = progress_bar(tables.len());
     let (mut done, mut skipped, mut worst) = (0, 0, None);
     let mut failed = Vec::new();
-    gonio::batch::run(&plan, &tables, &args.place.dir, |event| {
+    gonio::batch::run(&plan, &tables, &args.place.dir, args.memory.limit(), |event| {
         match event {
             Event::Done(shard) => {
                 done += 1;
@@ -267,11 +270,11 @@ fn progress_bar(tables: usize) -> ProgressBar {
     bar
 }
 
-fn read_plan(path: &Path) -> anyhow::Result<BatchPlan> {
+fn read_plan(path: &Path, selection: Selection<'_>) -> anyhow::Result<BatchPlan> {
     if !path.exists() {
         return Err(UsageError(format!("--plan {}: no such file", path.display())).into());
     }
-    Ok(BatchPlan::read(path)?)
+    Ok(BatchPlan::read_selected(path, selection)?)
 }
 
 fn parse_slice(text: &str) -> Result<(usize, usize), String> {
@@ -285,10 +288,15 @@ fn parse_slice(text: &str) -> Result<(usize, usize), String> {
 /// Ask the system to end this process when its parent ends: a killed worker would orphan it.
 #[cfg(target_os = "linux")]
 fn die_with_parent() -> anyhow::Result<()> {
+    let parent = std::os::unix::process::parent_id();
     // SAFETY: a plain system call with constant arguments.
     let status = unsafe { libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGTERM) };
     if status != 0 {
         return Err(UsageError("--die-with-parent: refused by the system".into()).into());
+    }
+    // A parent that ended before the call sends no signal.
+    if std::os::unix::process::parent_id() != parent {
+        anyhow::bail!("the parent process has ended (--die-with-parent)");
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ use gonio::export::{csv, databases, exr, mitsuba, strip};
 use gonio::hdf5::{self, AxisValues, SweepReader, TableError, write_netcdf};
 use gonio::pending_file::write_whole;
 use gonio::phase_table::PhaseTable;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 /// Formats of other programs.
@@ -87,6 +88,7 @@ pub fn run(args: ExportArgs) -> anyhow::Result<()> {
     let table = &tables[0];
     let cap = args.cap_deg.to_radians();
     let moments = usize::from(args.moments);
+    note_on_moments(&args, &tables);
     match args.to {
         Format::Mitsuba => write_mitsuba(&average(table, cap)?, &output, args.samples)?,
         Format::Eradiate => {
@@ -121,6 +123,28 @@ pub fn run(args: ExportArgs) -> anyhow::Result<()> {
     }
     println!("{}", output.display());
     Ok(())
+}
+
+/// The scattering matrix of a sphere of size parameter x has 2x moments and a few more; with fewer the
+/// series rings at the dark angles. Say so rather than let a user find out.
+fn note_on_moments(args: &ExportArgs, tables: &[PhaseTable]) {
+    if !matches!(args.to, Format::Eradiate | Format::Sasktran2 | Format::Libradtran) {
+        return;
+    }
+    let largest = |table: &PhaseTable| {
+        let wavelengths = table.header.axes.wavelength.iter();
+        wavelengths.map(|wavelength| TAU * table.header.radius / wavelength).fold(0.0, f64::max)
+    };
+    let size_parameter = tables.iter().map(largest).fold(0.0, f64::max);
+    let whole = 2.0 * size_parameter + 16.0;
+    if f64::from(args.moments) < whole {
+        eprintln!(
+            "note: {} Legendre moments; size parameter {size_parameter:.0} has about {whole:.0}. With \
+             fewer the series is off by tens of per cent at the dark angles (--moments; with all of \
+             them --cap-deg 0 is exact)",
+            args.moments
+        );
+    }
 }
 
 /// The table; for sasktran2 all tables of a sweep of radii.

@@ -1,41 +1,58 @@
-//! Does the computation of a table fit into this machine's memory?
+//! Does the computation of a table fit into this machine's memory, or into what it may take?
 
 use super::UsageError;
+use clap::Args;
 use gonio::scene::{Scene, TableSize, human_bytes};
 
-/// Slabs alive at once: one being computed, one waiting, one being written.
-const SLABS: u64 = 3;
-/// Working memory per direction while a slab is computed: amplitudes of both polarisations (64),
-/// sums over Mueller elements in f64, the mask.
-const BYTES_PER_DIRECTION: u64 = 96;
-/// Everything that does not grow with the table: rays, patches, the program itself.
-const REST: u64 = 300 << 20;
-
-/// Memory that a table needs while it is made, bytes; does not depend on the number of wavelengths.
-pub fn needed(size: &TableSize) -> u64 {
-    SLABS * size.slab_bytes + BYTES_PER_DIRECTION * size.directions + REST
+/// The flag of commands that estimate their memory before they start.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct MemoryFlag {
+    /// Refuse what needs more memory than this (default: what is free)
+    #[arg(long, value_name = "GIB", value_parser = gibibytes)]
+    memory_limit: Option<u64>,
 }
 
-/// Refuse a scene that would not fit.
-pub fn check(scene: &Scene) -> Result<(), UsageError> {
-    let size = scene.table_size();
-    let needed = needed(&size);
-    match available() {
-        Some(available) if needed > available => Err(UsageError(format!(
-            "table.theta_deg × table.azimuth_deg = {} × {}: a wavelength of {} needs about {} of \
-             memory, {} are free here; take fewer angles",
-            scene.theta.len(),
-            scene.phi.len(),
-            human_bytes(size.slab_bytes),
-            human_bytes(needed),
-            human_bytes(available)
-        ))),
-        _ => Ok(()),
+impl MemoryFlag {
+    /// The limit, bytes; `None` where none is given and the system does not say what is free.
+    pub fn limit(self) -> Option<u64> {
+        self.memory_limit.or_else(available)
+    }
+
+    /// Refuse a scene that would not fit.
+    pub fn check(self, scene: &Scene) -> Result<(), UsageError> {
+        let size = scene.table_size();
+        let needed = needed(&size);
+        match self.limit() {
+            Some(limit) if needed > limit => Err(UsageError(format!(
+                "table.theta_deg × table.azimuth_deg = {} × {}: a wavelength of {} needs about {} of \
+                 memory, the limit is {}; take fewer angles, or raise --memory-limit",
+                scene.theta.len(),
+                scene.phi.len(),
+                human_bytes(size.slab_bytes),
+                human_bytes(needed),
+                human_bytes(limit)
+            ))),
+            _ => Ok(()),
+        }
     }
 }
 
+fn gibibytes(text: &str) -> Result<u64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => {
+            Ok((number * f64::from(1 << 30)) as u64)
+        }
+        _ => Err("a number of GiB above 0 is accepted, such as 8 or 0.5".into()),
+    }
+}
+
+/// Memory that a table needs while it is made, bytes.
+pub fn needed(size: &TableSize) -> u64 {
+    size.working_memory()
+}
+
 /// Memory that is free, bytes; `None` where the system does not say.
-pub fn available() -> Option<u64> {
+fn available() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;

@@ -27,7 +27,11 @@ pub fn parse_index(text: &str) -> Result<Index, String> {
     if !(n.is_finite() && n > 0.0 && k.is_finite() && k >= 0.0) {
         return Err(format!("{text}: {accepted}"));
     }
-    Ok(Index(Complex64::new(n, k)))
+    let index = Complex64::new(n, k);
+    if !gonio::medium::is_plausible(index) {
+        return Err(format!("{text}: {} are accepted", gonio::medium::PLAUSIBLE_INDEX));
+    }
+    Ok(Index(index))
 }
 
 /// Comma list of values and `from:to:step` ranges (both ends in), degrees, order kept.

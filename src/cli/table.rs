@@ -1,7 +1,7 @@
 //! `gonio table`: from a scene to a tabulated phase function.
 
 use super::UsageError;
-use super::memory;
+use super::memory::MemoryFlag;
 use super::scene_flags::SceneFlags;
 use super::thinned::Thinned;
 use clap::Args;
@@ -37,6 +37,8 @@ pub struct TableArgs {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
+    memory: MemoryFlag,
+    #[command(flatten)]
     flags: SceneFlags,
 }
 
@@ -53,7 +55,7 @@ struct Summary {
 pub fn run(args: TableArgs) -> anyhow::Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
     let preview = preview_path(&args)?;
-    memory::check(&scene)?;
+    args.memory.check(&scene)?;
     let (summary, thinned) = tabulate(&scene, &args)?;
     if let Some(path) = &preview {
         preview::write_png(&thinned.into_table(), path)?;

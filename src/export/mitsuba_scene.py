@@ -11,6 +11,7 @@ parser.add_argument("--spp", type=int, default=64)
 parser.add_argument("--width", type=int, default=480)
 parser.add_argument("--height", type=int, default=270)
 parser.add_argument("--variant", default="llvm_ad_spectral")
+parser.add_argument("--exposure", type=float, default=4.0, help="factor of the PNG")
 parser.add_argument("--sun-elevation", type=float, default=20.0, help="degree")
 args = parser.parse_args()
 
@@ -58,4 +59,4 @@ scene = mi.load_dict({
 image = mi.render(scene, spp=args.spp)
 mi.util.write_bitmap(args.out, image)
 if args.out.endswith(".exr"):
-    mi.util.write_bitmap(args.out[:-4] + ".png", image)
+    mi.util.write_bitmap(args.out[:-4] + ".png", args.exposure * image)

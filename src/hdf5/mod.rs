@@ -46,10 +46,12 @@
 mod body;
 mod chunk;
 mod diagram;
+mod heap;
 mod literal;
 mod netcdf;
 mod raw;
 mod raw_read;
+mod raw_text;
 mod reader;
 mod record;
 mod schema;

@@ -1,22 +1,23 @@
 //! Reading through the HDF5 C library, with every claim of the file checked before it is believed.
 
 use super::TableError;
+use super::heap::Heaps;
+use super::raw_text::text_attribute;
 use hdf5::globals::{H5P_FILE_ACCESS, H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT, H5T_NATIVE_UINT8};
 use hdf5::sync::sync;
-use hdf5_sys::h5::herr_t;
+use hdf5_sys::h5::{HADDR_UNDEF, herr_t};
 use hdf5_sys::h5i::hid_t;
 use hdf5_sys::{h5a, h5d, h5f, h5p, h5s, h5t};
 use std::ffi::{CString, c_char, c_int, c_void};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::ptr;
 
-/// Longest text attribute or string accepted, bytes.
-const LONGEST_TEXT: usize = 64 << 20;
 /// Deflate shortens nothing by more than this factor (zlib's technical notes).
 const MOST_DEFLATED: u64 = 1032;
 
 #[derive(Debug)]
-struct Id(hid_t, unsafe extern "C" fn(hid_t) -> herr_t);
+pub(super) struct Id(pub hid_t, unsafe extern "C" fn(hid_t) -> herr_t);
 
 impl Drop for Id {
     fn drop(&mut self) {
@@ -32,6 +33,7 @@ pub(super) struct OpenFile {
     pub path: PathBuf,
     /// Length in bytes.
     length: u64,
+    heaps: Heaps,
 }
 
 /// A dataset of an open file; `shape` is what the file says.
@@ -42,6 +44,7 @@ pub(super) struct OpenDataset {
     name: String,
     pub shape: Vec<u64>,
     most_bytes: u64,
+    heaps: Heaps,
 }
 
 /// Types that values are read as.
@@ -68,12 +71,14 @@ impl OpenFile {
     /// Open `path`; a file that is no HDF5 is told from one that is missing or damaged.
     pub fn open(path: &Path) -> Result<OpenFile, TableError> {
         let io = |source| TableError::Io { path: path.to_path_buf(), source };
-        let file = std::fs::File::open(path).map_err(io)?;
-        let data = file.metadata().map_err(io)?;
-        if data.is_dir() {
-            return Err(foreign(path, "it is a folder"));
+        // Looked at before it is opened: opening a pipe would wait for its other end.
+        let data = std::fs::metadata(path).map_err(io)?;
+        if !data.is_file() {
+            let kind = if data.is_dir() { "a folder" } else { "no regular file" };
+            return Err(foreign(path, &format!("it is {kind}")));
         }
-        check_signature(path, file)?;
+        let file = File::open(path).map_err(io)?;
+        check_signature(path, &file)?;
         let name = path.to_str().and_then(|text| CString::new(text).ok());
         let name = name.ok_or_else(|| foreign(path, "its name is not valid UTF-8"))?;
         let id = sync(|| unsafe {
@@ -84,12 +89,13 @@ impl OpenFile {
             let id = h5f::H5Fopen(name.as_ptr(), h5f::H5F_ACC_RDONLY, access.0);
             owned(path, id, h5f::H5Fclose)
         })?;
-        Ok(OpenFile { id, path: path.to_path_buf(), length: data.len() })
+        let heaps = Heaps::new(file);
+        Ok(OpenFile { id, path: path.to_path_buf(), length: data.len(), heaps })
     }
 
     /// A text attribute of the file; `None` where there is none.
     pub fn text(&self, name: &str) -> Result<Option<String>, TableError> {
-        text_attribute(&self.path, self.id.0, name)
+        text_attribute(&self.path, &self.heaps, self.id.0, name)
     }
 
     /// A numeric attribute of the file; `None` where there is none.
@@ -126,7 +132,8 @@ impl OpenFile {
             let id = owned(path, id, h5d::H5Dclose)?;
             let shape = shape(path, &id)?;
             let most_bytes = self.length.saturating_mul(MOST_DEFLATED).saturating_add(1 << 20);
-            Ok(Some(OpenDataset { id, path: path.clone(), name: name.into(), shape, most_bytes }))
+            let (path, name, heaps) = (path.clone(), name.into(), self.heaps.clone());
+            Ok(Some(OpenDataset { id, path, name, shape, most_bytes, heaps }))
         })
     }
 
@@ -140,7 +147,7 @@ impl OpenFile {
 impl OpenDataset {
     /// A text attribute of the dataset.
     pub fn text(&self, name: &str) -> Result<Option<String>, TableError> {
-        text_attribute(&self.path, self.id.0, name)
+        text_attribute(&self.path, &self.heaps, self.id.0, name)
     }
 
     /// Read all values.
@@ -201,6 +208,11 @@ impl OpenDataset {
             if h5t::H5Tis_variable_str(kind.0) <= 0 {
                 return Err(bad());
             }
+            // Contiguous values have a place; others may lie anywhere.
+            let place = h5d::H5Dget_offset(self.id.0);
+            let bytes = h5d::H5Dget_storage_size(self.id.0);
+            let place = (place != HADDR_UNDEF).then_some((place, bytes));
+            self.heaps.check(place).map_err(|message| damaged(path, &message))?;
             let mut texts: Vec<*mut c_char> = vec![ptr::null_mut(); count];
             let (all, data) = (h5s::H5S_ALL, texts.as_mut_ptr().cast::<c_void>());
             let status = h5d::H5Dread(self.id.0, kind.0, all, all, h5p::H5P_DEFAULT, data);
@@ -252,7 +264,7 @@ unsafe fn shape(path: &Path, id: &Id) -> Result<Vec<u64>, TableError> {
     }
 }
 
-fn attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<Id>, TableError> {
+pub(super) fn attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<Id>, TableError> {
     let c_name = CString::new(name).map_err(|_| damaged(path, "a name with a zero byte"))?;
     sync(|| unsafe {
         // SAFETY: C string, open object.
@@ -267,52 +279,8 @@ fn attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<Id>, Table
     })
 }
 
-/// Text of fixed or variable length.
-fn text_attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<String>, TableError> {
-    let Some(attribute) = attribute(path, object, name)? else { return Ok(None) };
-    let bad = || damaged(path, &format!("attribute {name} is not one text"));
-    sync(|| unsafe {
-        // SAFETY: the buffer has the size of the attribute's own type; the count is one, checked;
-        // strings of variable length are copied and then given back to the library.
-        let kind = owned(path, h5a::H5Aget_type(attribute.0), h5t::H5Tclose)?;
-        let space = owned(path, h5a::H5Aget_space(attribute.0), h5s::H5Sclose)?;
-        if h5s::H5Sget_simple_extent_npoints(space.0) != 1 {
-            return Err(bad());
-        }
-        if h5t::H5Tis_variable_str(kind.0) > 0 {
-            let mut text: *mut c_char = ptr::null_mut();
-            done(path, h5a::H5Aread(attribute.0, kind.0, (&raw mut text).cast::<c_void>()))?;
-            if text.is_null() {
-                return Err(bad());
-            }
-            let copy = std::ffi::CStr::from_ptr(text).to_string_lossy().into_owned();
-            hdf5_sys::h5::H5free_memory(text.cast::<c_void>());
-            return Ok(Some(copy));
-        }
-        let size = fixed_text_size(&kind).ok_or_else(bad)?;
-        let mut buffer = vec![0u8; size];
-        done(path, h5a::H5Aread(attribute.0, kind.0, buffer.as_mut_ptr().cast::<c_void>()))?;
-        Ok(Some(trimmed(&buffer)))
-    })
-}
-
-/// Bytes per string of a type of fixed-length strings. SAFETY: the lock is held.
-unsafe fn fixed_text_size(kind: &Id) -> Option<usize> {
-    unsafe {
-        let is_text = h5t::H5Tget_class(kind.0) == h5t::H5T_class_t::H5T_STRING
-            && h5t::H5Tis_variable_str(kind.0) == 0;
-        let size = h5t::H5Tget_size(kind.0);
-        (is_text && (1..=LONGEST_TEXT).contains(&size)).then_some(size)
-    }
-}
-
-fn trimmed(bytes: &[u8]) -> String {
-    let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
-    String::from_utf8_lossy(&bytes[..end]).into_owned()
-}
-
 /// The eight bytes that every HDF5 file begins with.
-fn check_signature(path: &Path, mut file: std::fs::File) -> Result<(), TableError> {
+fn check_signature(path: &Path, mut file: &File) -> Result<(), TableError> {
     use std::io::Read;
     let mut signature = [0u8; 8];
     match file.read_exact(&mut signature) {
@@ -325,7 +293,7 @@ fn check_signature(path: &Path, mut file: std::fs::File) -> Result<(), TableErro
     }
 }
 
-fn owned(
+pub(super) fn owned(
     path: &Path,
     id: hid_t,
     close: unsafe extern "C" fn(hid_t) -> herr_t,
@@ -333,7 +301,7 @@ fn owned(
     if id < 0 { Err(failure(path)) } else { Ok(Id(id, close)) }
 }
 
-fn done(path: &Path, status: herr_t) -> Result<(), TableError> {
+pub(super) fn done(path: &Path, status: herr_t) -> Result<(), TableError> {
     if status < 0 { Err(failure(path)) } else { Ok(()) }
 }
 

@@ -77,6 +77,18 @@ pub enum Medium {
 impl Medium {
     /// Complex index `n + ik` at a wavelength in vacuum (metres).
     pub fn index(&self, wavelength: f64) -> Result<Complex64, MediumError> {
+        let index = self.index_of_data(wavelength)?;
+        if is_plausible(index) {
+            return Ok(index);
+        }
+        Err(MediumError::Invalid {
+            field: format!("index of {} at {} nm", self.name(), nanometres(wavelength)),
+            value: format!("{:e} + {:e}i", index.re, index.im),
+            accepted: PLAUSIBLE_INDEX.into(),
+        })
+    }
+
+    fn index_of_data(&self, wavelength: f64) -> Result<Complex64, MediumError> {
         match self {
             Medium::Constant(index) => Ok(*index),
             Medium::Water { temperature } => water::index(wavelength, *temperature),
@@ -172,6 +184,15 @@ fn check_range(name: &str, wavelength: f64, range: (f64, f64)) -> Result<(), Med
     })
 }
 
+/// What [`is_plausible`] accepts, in words.
+pub const PLAUSIBLE_INDEX: &str = "n from 1e-4 to 1e4, k from 0 to 1e4";
+
+/// True for an index that any material may have between X-rays and microwaves (metals reach some
+/// hundreds in the far infrared). Beyond, squares and powers of it overflow.
+pub fn is_plausible(index: Complex64) -> bool {
+    (1e-4..=1e4).contains(&index.re) && (0.0..=1e4).contains(&index.im)
+}
+
 /// Nanometres to a millionth, for messages: 400 reads better than 400.00000000000006.
 fn nanometres(metres: f64) -> f64 {
     (metres * 1e15).round() / 1e6
@@ -183,7 +204,12 @@ const LARGEST_FILE: u64 = 64 << 20;
 /// The text of a file of optical data.
 fn read_text(path: &Path) -> Result<String, MediumError> {
     let fail = |message: String| MediumError::File { path: path.into(), line: None, message };
-    let size = std::fs::metadata(path).map_err(|e| fail(e.to_string()))?.len();
+    let data = std::fs::metadata(path).map_err(|e| fail(e.to_string()))?;
+    // Opening a pipe would wait for its other end; a folder has no text.
+    if !data.is_file() {
+        return Err(fail("not a regular file".into()));
+    }
+    let size = data.len();
     if size > LARGEST_FILE {
         return Err(fail(format!("{size} bytes, at most {LARGEST_FILE} are read")));
     }

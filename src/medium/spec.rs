@@ -269,7 +269,11 @@ fn constant(n: f64, k: f64) -> Result<Medium, MediumError> {
     if !(k >= 0.0 && k.is_finite()) {
         return Err(invalid("index: k", &k.to_string(), "0 or more (n + ik absorbs for k > 0)"));
     }
-    Ok(Medium::Constant(Complex64::new(n, k)))
+    let index = Complex64::new(n, k);
+    if !super::is_plausible(index) {
+        return Err(invalid("index", &format!("[{n:e}, {k:e}]"), super::PLAUSIBLE_INDEX));
+    }
+    Ok(Medium::Constant(index))
 }
 
 /// A medium by a formula of the user's: valid between the poles on either side of visible light.

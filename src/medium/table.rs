@@ -121,12 +121,19 @@ impl<'a> TableBuilder<'a> {
         self.table.wavelength.push(self.unit.to_metres(wavelength));
         for (&column, &value) in self.columns.iter().zip(&numbers[1..]) {
             let (name, values, accepted) = match column {
-                Column::N => ("n", &mut self.table.n, value > 0.0),
-                Column::K => ("k", &mut self.table.k, value >= 0.0),
+                Column::N => ("n", &mut self.table.n, (1e-4..=1e4).contains(&value)),
+                Column::K => ("k", &mut self.table.k, (0.0..=1e4).contains(&value)),
                 Column::Absorbance => ("absorbance", &mut self.table.absorbance, value >= 0.0),
             };
             if !accepted {
-                let bound = if column == Column::N { "positive" } else { "0 or more" };
+                let bound = match column {
+                    Column::N if value <= 0.0 => "positive",
+                    Column::N => "1e-4 to 1e4",
+                    Column::K if value > 0.0 => "at most 1e4",
+                    Column::K | Column::Absorbance => "0 or more",
+                };
+                // Three hundred digits would help nobody.
+                let value = if value < 1e15 { value.to_string() } else { format!("{value:e}") };
                 let message = format!("{name} = {value} must be {bound}");
                 return Err(file_error(self.path, Some(line), message));
             }

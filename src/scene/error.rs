@@ -69,7 +69,7 @@ impl SceneError {
     ) -> Self {
         SceneError::Invalid {
             place: Place::key(key),
-            value: value.to_string(),
+            value: shown(&value.to_string()),
             accepted: accepted.into(),
         }
     }
@@ -97,6 +97,19 @@ impl SceneError {
             }
         }
         self
+    }
+}
+
+/// A value for a message: numbers of hundreds of digits by their power of ten, long lists cut.
+pub(crate) fn shown(value: &str) -> String {
+    const LONG: usize = 24;
+    const LONGEST: usize = 120;
+    match value.parse::<f64>() {
+        Ok(number) if value.len() > LONG => format!("{number:e}"),
+        _ if value.chars().count() > LONGEST => {
+            format!("{}…", value.chars().take(LONGEST).collect::<String>())
+        }
+        _ => value.into(),
     }
 }
 

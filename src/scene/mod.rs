@@ -20,10 +20,15 @@ mod tests;
 mod validate;
 
 pub use choice::{Choice, Named, ShapeName};
+// Batches use them, and batches need HDF5.
+#[cfg(feature = "hdf5")]
+pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{LightKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::Grid;
 pub use read::SceneText;
+#[cfg(feature = "hdf5")]
+pub(crate) use read::{line_at, read_limited};
 pub use size::{TableSize, human_bytes};
 
 use crate::medium::Medium;

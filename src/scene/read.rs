@@ -29,13 +29,7 @@ impl SceneText {
     /// The file cannot be read, is no TOML, or has unknown keys or values of the wrong kind.
     pub fn load(path: &Path) -> Result<SceneText, SceneError> {
         let unreadable = |source| SceneError::Read { path: path.to_path_buf(), source };
-        let mut text = String::new();
-        let source = std::fs::File::open(path).map_err(unreadable)?;
-        source.take(MAX_BYTES + 1).read_to_string(&mut text).map_err(unreadable)?;
-        if text.len() as u64 > MAX_BYTES {
-            let message = format!("larger than {} MiB, so not a scene file", MAX_BYTES >> 20);
-            return Err(unreadable(std::io::Error::other(message)));
-        }
+        let text = read_limited(path).map_err(unreadable)?;
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
         Ok(SceneText { folder, ..SceneText::parse(&path.display().to_string(), text)? })
     }
@@ -125,7 +119,18 @@ fn key_at(text: &str, byte: usize) -> Option<String> {
     None
 }
 
+/// The text of a file that should be a scene or a sweep, whatever it is.
+pub(crate) fn read_limited(path: &Path) -> std::io::Result<String> {
+    let mut text = String::new();
+    std::fs::File::open(path)?.take(MAX_BYTES + 1).read_to_string(&mut text)?;
+    if text.len() as u64 > MAX_BYTES {
+        let message = format!("larger than {} MiB, so not a scene file", MAX_BYTES >> 20);
+        return Err(std::io::Error::other(message));
+    }
+    Ok(text)
+}
+
 /// Line number, from 1, of a byte of the text.
-fn line_at(text: &str, byte: usize) -> usize {
+pub(crate) fn line_at(text: &str, byte: usize) -> usize {
     text.bytes().take(byte).filter(|byte| *byte == b'\n').count() + 1
 }

@@ -24,6 +24,9 @@ pub enum Source {
 /// Lobes of the forward peak that are averaged over cells, and samples per lobe.
 const LOBES: f64 = 20.0;
 const SAMPLES_PER_LOBE: f64 = 8.0;
+/// Step of θ, in lobes, from which on cells hold means. The sum over point samples is off by about
+/// 0.01 (step x)², so that with finer steps it misses 1 by less than 1e-3.
+const COARSE: f64 = 0.08;
 
 /// One wavelength of a sphere's table.
 ///
@@ -100,7 +103,8 @@ fn matrix((s1, s2): (Complex64, Complex64)) -> AmplitudeMatrix {
     AmplitudeMatrix { s1, s2, ..Default::default() }
 }
 
-/// Cells about the forward direction that are coarser than a quarter lobe.
+/// Cells about the forward direction that are coarser than [`COARSE`]. The cell at 0 is half as wide
+/// as its neighbour: it is the step that counts, else no cell would ever follow a fine first one.
 fn coarse_cells(theta: &[f64], size_parameter: f64) -> Vec<(f64, f64)> {
     let last = theta.len() - 1;
     let cell = |i: usize| {
@@ -109,9 +113,9 @@ fn coarse_cells(theta: &[f64], size_parameter: f64) -> Vec<(f64, f64)> {
         (low, high)
     };
     let reach = LOBES * PI / size_parameter;
-    let coarse =
-        |&(low, high): &(f64, f64)| low < reach && (high - low) * size_parameter > 0.25 * PI;
-    (0..theta.len()).map(cell).take_while(coarse).collect()
+    let step = |i: usize| if i < last { theta[i + 1] - theta[i] } else { theta[i] - theta[i - 1] };
+    let coarse = |&i: &usize| cell(i).0 < reach && step(i) * size_parameter > COARSE * PI;
+    (0..theta.len()).take_while(coarse).map(cell).collect()
 }
 
 /// Angles within a cell and their shares of its solid angle.
@@ -134,4 +138,33 @@ fn mean(amplitudes: &[(Complex64, Complex64)], shares: &[f64]) -> [[f64; 4]; 4] 
         }
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever the step is to the lobes: P times solid angle sums to 1.
+    #[test]
+    fn values_sum_to_one_on_any_grid() {
+        for radius in [1e-6, 2e-6, 5e-6, 2e-5, 8e-5] {
+            for count in [46, 91, 181, 361, 721, 1801, 3601] {
+                let theta: Vec<f64> =
+                    (0..count).map(|i| PI * i as f64 / (count - 1) as f64).collect();
+                let slab = sphere_slab(
+                    &Source::LorenzMie,
+                    radius,
+                    5e-7,
+                    Complex64::new(1.333, 0.0),
+                    &theta,
+                    Quantity::PhaseFunction,
+                    ForwardPeak::CellAverage,
+                )
+                .unwrap();
+                let axes = Axes { wavelength: vec![5e-7], theta, phi: vec![0.0] };
+                let sum = slab.sum(&axes);
+                assert!((sum - 1.0).abs() < 1e-3, "{radius} m, {count} angles: {sum}");
+            }
+        }
+    }
 }

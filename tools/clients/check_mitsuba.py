@@ -29,9 +29,9 @@ def centre(channel, low, high):
 
 
 for name, low, high, sign in (("primary", 38.5, 44.0, 1), ("secondary", 49.0, 56.5, -1)):
-    red, blue = centre(0, low, high), centre(2, low, high)
-    print(f"{name}: red at {red:.2f}, blue at {blue:.2f} degree from the antisolar point")
-    assert sign * (red - blue) > 0.3, name
+    red, green, blue = (centre(channel, low, high) for channel in range(3))
+    print(f"{name}: red {red:.2f}, green {green:.2f}, blue {blue:.2f} degree from the antisolar point")
+    assert sign * (red - green) > 0.1 and sign * (green - blue) > 0.1, name
 luminance = profile @ [0.2126, 0.7152, 0.0722]
 band = luminance[(middle > 44.5) & (middle < 48.5)].mean()
 inner = luminance[(middle > 36) & (middle < 39)].mean()

@@ -11,7 +11,13 @@ environment() {
   local name=$1; shift
   local folder=$environments/$name
   if [ ! -x "$folder/bin/python" ]; then
-    python3 -m venv "$folder"
+    if ! python3 -m venv "$folder" 2>/dev/null; then
+      # Some systems ship Python without ensurepip.
+      rm -rf "$folder"
+      python3 -m pip install --quiet --disable-pip-version-check --root-user-action=ignore \
+        --target "$environments/virtualenv" virtualenv
+      PYTHONPATH=$environments/virtualenv python3 -m virtualenv --quiet "$folder"
+    fi
     "$folder/bin/pip" install --quiet --disable-pip-version-check "$@"
   fi
   python=$folder/bin/python
