@@ -6,7 +6,7 @@ use gonio::medium::MediumSpec;
 use gonio::phase_table::{ForwardPeak, Quantity};
 use gonio::scene::{
     Choice, Diffraction, Grid, LightKeys, Method, ModelKeys, Named, Orders, ParticleKeys, Scene,
-    SceneError, SceneFile, ShapeName, TableKeys,
+    SceneError, SceneFile, ShapeName, SizeKeys, SunDisc, TableKeys,
 };
 use gonio::shape::RaindropModel;
 use std::path::Path;
@@ -41,6 +41,10 @@ pub struct ParticleFlags {
     #[arg(long, value_name = "MM", allow_negative_numbers = true,
           conflicts_with_all = ["radius_mm", "radius_um"])]
     pub diameter_mm: Option<f64>,
+    /// Many spheres: kind = "gamma", effective_radius_um = 10, effective_variance = 0.1
+    #[arg(long, value_name = "TABLE",
+          conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"])]
+    pub size_distribution: Option<SizeKeys>,
     /// Vertical over horizontal diameter of a spheroid
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub axis_ratio: Option<f64>,
@@ -68,6 +72,12 @@ pub struct LightFlags {
     /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
     #[arg(long, value_name = "NM", allow_hyphen_values = true)]
     pub wavelengths_nm: Option<Grid>,
+    /// Full width at half maximum of the band that each wavelength stands for (spheres)
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub bandwidth_nm: Option<f64>,
+    /// Mean over the sun's disc (spheres)
+    #[arg(long, value_parser = word::<SunDisc>())]
+    pub sun_disc: Option<Choice<SunDisc>>,
 }
 
 /// What is tabulated, and where.
@@ -148,6 +158,7 @@ impl ParticleFlags {
             radius_mm: self.radius_mm,
             radius_um: self.radius_um,
             diameter_mm: self.diameter_mm,
+            size_distribution: self.size_distribution,
             axis_ratio: self.axis_ratio,
             model: self.model,
             temperature_c: self.temperature_c,
@@ -165,6 +176,8 @@ impl SceneFlags {
             light: LightKeys {
                 sun_elevation_deg: light.sun_elevation_deg,
                 wavelengths_nm: light.wavelengths_nm,
+                bandwidth_nm: light.bandwidth_nm,
+                sun_disc: light.sun_disc,
             },
             table: TableKeys {
                 quantity: table.quantity,
