@@ -19,6 +19,8 @@ pub enum SizeDistribution {
     MarshallPalmer { rain_rate: f64, from: f64, to: f64 },
 }
 
+use std::f64::consts::{SQRT_2, TAU};
+
 /// Samples of a search for the limits and of the moments, evenly spaced in ln r.
 const SAMPLES: usize = 20_000;
 
@@ -44,6 +46,27 @@ impl SizeDistribution {
             Self::MarshallPalmer { rain_rate, from, to } => {
                 let inside = (from..=to).contains(&radius);
                 if inside { (-slope(rain_rate) * 2.0 * (radius - from)).exp() } else { 0.0 }
+            }
+        }
+    }
+
+    /// Number of particles: the integral of the density, in closed form.
+    pub fn number(&self) -> f64 {
+        match *self {
+            Self::Delta { .. } => 1.0,
+            Self::Normal { mean, deviation } => {
+                let below = 0.5 * libm::erfc(mean / (deviation * SQRT_2));
+                deviation * TAU.sqrt() * (1.0 - below)
+            }
+            Self::LogNormal { median, spread } => median * spread * TAU.sqrt(),
+            Self::Gamma { effective_radius: a, effective_variance: v } => {
+                // ∫ (r/a)^(k-1) exp(-(r-a)/(a v)) dr = a v^k Γ(k) e^(1/v), k = (1-2v)/v
+                let k = (1.0 - 2.0 * v) / v;
+                a * (k * v.ln() + libm::lgamma(k) + 1.0 / v).exp()
+            }
+            Self::MarshallPalmer { rain_rate, from, to } => {
+                let decay = 2.0 * slope(rain_rate);
+                -(-decay * (to - from)).exp_m1() / decay
             }
         }
     }
@@ -77,6 +100,7 @@ impl SizeDistribution {
     pub fn effective_radius(&self) -> f64 {
         match *self {
             Self::Delta { radius } => radius,
+            Self::Gamma { effective_radius, .. } => effective_radius,
             _ => self.moment(3) / self.moment(2),
         }
     }
@@ -143,13 +167,30 @@ mod tests {
     #[test]
     fn effective_radii_in_closed_form() {
         let gamma = SizeDistribution::Gamma { effective_radius: 1e-5, effective_variance: 0.1 };
-        assert_relative_eq!(gamma.effective_radius(), 1e-5, max_relative = 1e-6);
+        let moments = gamma.moment(3) / gamma.moment(2);
+        assert_relative_eq!(gamma.effective_radius(), moments, max_relative = 1e-6);
         let log = SizeDistribution::LogNormal { median: 2e-6, spread: 0.4 };
         let expected = 2e-6 * f64::exp(2.5 * 0.16);
         assert_relative_eq!(log.effective_radius(), expected, max_relative = 1e-6);
         let normal = SizeDistribution::Normal { mean: 1e-5, deviation: 1e-6 };
         let expected = (1e-15 + 3e-5 * 1e-12) / (1e-10 + 1e-12);
         assert_relative_eq!(normal.effective_radius(), expected, max_relative = 1e-6);
+    }
+
+    /// Closed forms against sums.
+    #[test]
+    fn numbers_are_the_integrals_of_the_densities() {
+        for sizes in [
+            SizeDistribution::Gamma { effective_radius: 1e-5, effective_variance: 0.1 },
+            SizeDistribution::Gamma { effective_radius: 1e-5, effective_variance: 1e-3 },
+            SizeDistribution::LogNormal { median: 2e-6, spread: 0.4 },
+            SizeDistribution::Normal { mean: 1e-5, deviation: 1e-6 },
+            SizeDistribution::Normal { mean: 1e-5, deviation: 4e-6 },
+            SizeDistribution::MarshallPalmer { rain_rate: 5.0, from: 1e-4, to: 2e-3 },
+        ] {
+            // The sum begins a little above zero.
+            assert_relative_eq!(sizes.number(), sizes.moment(0), max_relative = 3e-4);
+        }
     }
 
     /// Gamma's tail in closed form: with r⁴ it is a gamma law of shape 1/v + 2 = 12.

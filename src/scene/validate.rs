@@ -398,12 +398,10 @@ impl Scene {
         }
         let accepted = "means over sizes, bands and the sun's disc need a sphere and method = \
                         \"mie\" (or \"auto\"); \"debye\" takes the sun's disc alone";
-        if let (true, Some(sizes)) = (many, self.size_distribution) {
-            return Err(SceneError::invalid(
-                "particle.size_distribution",
-                format!("{sizes:?}"),
-                accepted,
-            ));
+        if many {
+            let key = "particle.size_distribution";
+            let method = format!("(many spheres) with method = \"{}\"", self.method.name());
+            return Err(SceneError::invalid(key, method, accepted));
         }
         if self.bandwidth > 0.0 {
             let nm = self.bandwidth * 1e9;

@@ -87,6 +87,7 @@ struct Node {
     radius: f64,
     wavelength: f64,
     index: Complex64,
+    /// Share of all particles, or of the band.
     weight: f64,
 }
 
@@ -145,7 +146,7 @@ impl Ensemble<'_> {
         }
         let index = self.medium.index(self.wavelength)?;
         let (from, to) = self.sizes.limits(TAIL * self.tolerance);
-        let periodic = self.sizes.has_steps();
+        let (periodic, number) = (self.sizes.has_steps(), self.sizes.number());
         let nodes = (0..steps).map(|i| {
             let t = (i as f64 + 0.5) / steps as f64;
             // sin² steps make a function that ends in a step end smoothly.
@@ -155,7 +156,7 @@ impl Ensemble<'_> {
                 (t, 1.0)
             };
             let radius = from + (to - from) * place;
-            let weight = share * self.sizes.density(radius);
+            let weight = share * self.sizes.density(radius) * (to - from) / steps as f64 / number;
             Node { radius, wavelength: self.wavelength, index, weight }
         });
         Ok(nodes.collect())
@@ -167,8 +168,9 @@ impl Ensemble<'_> {
         let wavenumber = slow + (fast - slow) * (i as f64 + 0.5) / steps as f64;
         let wavelength = 1.0 / wavenumber;
         let place = 0.5 * PI * (wavelength - self.wavelength) / self.bandwidth;
-        // cos² by wavelength, dλ = λ² dν.
-        let weight = place.cos().powi(2) * wavelength * wavelength;
+        // cos² by wavelength with the integral 1, dλ = λ² dν.
+        let width = (fast - slow) / steps as f64;
+        let weight = place.cos().powi(2) * wavelength * wavelength * width / self.bandwidth;
         Ok(Node { radius, wavelength, index: self.medium.index(wavelength)?, weight })
     }
 
@@ -185,7 +187,8 @@ impl Ensemble<'_> {
         checked_term_count(to, index)?;
         let steps = 2 * (0.5 * steps.max(64.0)).ceil() as usize;
         let nodes = self.nodes(steps)?;
-        let half: Vec<Node> = nodes.iter().copied().step_by(2).collect();
+        let twice = |node: &Node| Node { weight: 2.0 * node.weight, ..*node };
+        let half: Vec<Node> = nodes.iter().step_by(2).map(twice).collect();
         let compared: Vec<f64> =
             (0..COMPARED).map(|i| PI * i as f64 / (COMPARED - 1) as f64).collect();
         let all: Vec<f64> = theta.iter().chain(&compared).copied().collect();
@@ -233,7 +236,6 @@ struct Part {
     elements: Vec<[f64; 4]>,
     /// Behind the cut, in units of area.
     behind: Products,
-    weight: f64,
     scattering: f64,
     absorption: f64,
     forward: f64,
@@ -255,21 +257,20 @@ fn sum(nodes: &[Node], theta: &[f64], cut: u32) -> Result<Mean, MeanError> {
         let pairs = total.elements.iter_mut().flatten().zip(part.elements.iter().flatten());
         pairs.for_each(|(sum, value)| *sum += value);
         total.behind.add(&part.behind);
-        total.weight += part.weight;
         total.scattering += part.scattering;
         total.absorption += part.absorption;
         total.forward += part.forward;
     }
     let behind = total.behind.elements(theta);
     for (sum, more) in total.elements.iter_mut().flatten().zip(behind.iter().flatten()) {
-        *sum = (*sum + more) / total.weight;
+        *sum += more;
     }
     let (scattered, forward) = total.behind.sums();
     let scattering = total.scattering + TAU * scattered;
     Ok(Mean {
         elements: total.elements,
-        scattering: scattering / total.weight,
-        absorption: total.absorption / total.weight,
+        scattering,
+        absorption: total.absorption,
         asymmetry: (total.forward + 2.0 * TAU * forward) / scattering,
         error: 0.0,
         spheres: nodes.len(),
@@ -306,7 +307,6 @@ fn part(
             sum[3] -= scale * cross.im;
         }
         let (scattered, forward) = sums(&a, &b);
-        part.weight += node.weight;
         part.scattering += scale * TAU * scattered;
         part.forward += scale * 2.0 * TAU * forward;
         if node.index.im > 0.0 {
