@@ -89,7 +89,8 @@ impl SizeDistribution {
             Self::MarshallPalmer { from, to, .. } => (from, to),
             _ => {
                 let (low, high) = self.span();
-                let low_cut = self.quantile(low, high, 2, tail);
+                // Where large drops absorb, the small ones shine all the more.
+                let low_cut = self.quantile(low, high, 2, 0.02 * tail);
                 let high_cut = self.quantile(low, high, 4, 1.0 - tail);
                 (low_cut, high_cut)
             }

@@ -1,13 +1,14 @@
 //! The mean of a sphere's scattering over the sun's disc.
 //!
 //! Every point of the disc shines from its own direction, so that one direction of the sky sees
-//! scattering angles up to 0.27° on both sides. The disc is cut into rings of equal light and each
-//! ring into equal steps of its position angle ψ; the scattering angle of a point at the distance ρ
+//! scattering angles up to 0.27° on both sides. The disc is integrated over ρ² by Gauss's rule and over
+//! equal steps of its position angle ψ; the scattering angle of a point at the distance ρ
 //! from the centre follows from `cos θ' = cos θ cos ρ - sin θ sin ρ cos ψ`, which holds at 0° and
 //! 180° too. The mean over directions, ∫ P dΩ = 1, stays what it was. The turn of the plane of
 //! polarisation from one side of the disc to the other is left out (it is at most ρ/sin θ).
 
 use crate::color::{LimbDarkening, SUN_ANGULAR_RADIUS};
+use crate::math::gauss_legendre;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -37,13 +38,14 @@ impl Disc {
         let count = (PI / step).ceil() as usize;
         let lobes = SUN_ANGULAR_RADIUS / lobe;
         let rings = (RINGS_PER_LOBE * lobes).max(LEAST_RINGS).ceil() as usize;
-        // Midpoints in ρ² are rings of equal area.
-        let ring = |i: usize| {
-            let square = (i as f64 + 0.5) / rings as f64;
+        // Equal steps of ρ² are rings of equal area.
+        let ring = |(node, weight): (f64, f64)| {
+            let square = 0.5 * (1.0 + node);
             let light = limb.map_or(1.0, |limb| limb.brightness((1.0 - square).sqrt()));
-            (SUN_ANGULAR_RADIUS * square.sqrt(), light)
+            (SUN_ANGULAR_RADIUS * square.sqrt(), light * weight)
         };
-        let mut rings: Vec<(f64, f64)> = (0..rings).map(ring).collect();
+        let mut rings: Vec<(f64, f64)> =
+            gauss_legendre::nodes(rings).into_iter().map(ring).collect();
         let light: f64 = rings.iter().map(|(_, light)| light).sum();
         rings.iter_mut().for_each(|(_, share)| *share /= light);
         let turns = 2 * rings.len();
