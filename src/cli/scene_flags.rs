@@ -51,9 +51,9 @@ pub struct ParticleFlags {
     /// Shape model of a raindrop
     #[arg(long, value_parser = word::<RaindropModel>())]
     pub model: Option<Choice<RaindropModel>>,
-    /// Medium of the particle, by name
-    #[arg(long, value_name = "NAME")]
-    pub medium: Option<String>,
+    /// Medium of the particle: a name, a file, or a table as in a scene file
+    #[arg(long, value_name = "NAME", value_parser = parse_medium)]
+    pub medium: Option<MediumSpec>,
     /// Constant index n+ik of the particle in place of a medium
     #[arg(long, value_name = "N[+K]", value_parser = parse_index, conflicts_with = "medium")]
     pub index: Option<[f64; 2]>,
@@ -147,12 +147,16 @@ pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// `water`, `glass.yml`, `{ solute = … }`
+fn parse_medium(text: &str) -> Result<MediumSpec, String> {
+    MediumSpec::parse(text).map_err(|error| error.to_string())
+}
+
 impl ParticleFlags {
     /// As keys of a scene.
     pub fn keys(&self) -> ParticleKeys {
-        let named = self.medium.clone().map(|name| MediumSpec::name(&name));
-        let medium =
-            self.index.map(|index| MediumSpec::Index { n: index[0], k: index[1] }).or(named);
+        let constant = self.index.map(|index| MediumSpec::Index { n: index[0], k: index[1] });
+        let medium = constant.or_else(|| self.medium.clone());
         ParticleKeys {
             shape: self.shape,
             radius_mm: self.radius_mm,

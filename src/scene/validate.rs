@@ -105,6 +105,7 @@ fn chosen<T: Named>(choice: Option<Choice<T>>, key: &str) -> Result<T, SceneErro
 
 fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
     let shape = chosen(keys.shape, "particle.shape")?;
+    size_distribution(keys)?;
     if let (Some(ratio), true) = (keys.axis_ratio, shape != ShapeName::Spheroid) {
         let accepted = format!("only a spheroid has an axis ratio; the shape is {}", shape.name());
         return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
@@ -115,8 +116,7 @@ fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
     }
     match shape {
         ShapeName::Sphere => {
-            let sizes = size_distribution(keys)?;
-            let radius = match sizes {
+            let radius = match size_distribution(keys)? {
                 Some(sizes) => sizes.effective_radius(),
                 None => radius(keys, plain_radius)?,
             };

@@ -65,9 +65,11 @@ pub struct Mean {
 const CUT: (f64, f64) = (24.0, 8.0);
 /// Most orders before the cut.
 const MAX_CUT: u32 = 256;
-/// Steps per period of the longest path kept, `W = 2 p n` per order p: above 0.75 the result does
-/// not change any more (the longest paths carry no light).
-const STEPS_PER_PATH: f64 = 0.8;
+/// The longest paths kept that carry light are those of rays near the rim, `2 √(n² - 1)` radii per
+/// order; with this margin, and this much for the ways outside, the steps resolve the beat of the
+/// last order with diffraction, and more steps change nothing.
+const PATH_MARGIN: f64 = 1.1;
+const WAYS_OUTSIDE: f64 = 4.0;
 /// Most spheres of one average.
 const MAX_STEPS: f64 = 1e7;
 /// Share of the light in the neglected tails of the distribution, in units of the tolerance.
@@ -178,9 +180,10 @@ impl Ensemble<'_> {
     fn mean_behind(&self, theta: &[f64], cut: u32) -> Result<Mean, MeanError> {
         let (from, to) = self.range();
         let index = self.medium.index(self.wavelength)?;
-        let longest = 2.0 * index.re.max(1.0) * f64::from(cut);
+        let per_order = 2.0 * (index.re * index.re - 1.0).max(0.06).sqrt();
+        let longest = PATH_MARGIN * per_order * f64::from(cut) + WAYS_OUTSIDE;
         let stretch = if self.sizes.has_steps() { 2.0 } else { 1.0 };
-        let steps = stretch * (to - from) * STEPS_PER_PATH * longest / TAU;
+        let steps = stretch * (to - from) * longest / TAU;
         if steps > MAX_STEPS {
             return Err(MeanError::TooLong { from, to, steps });
         }
@@ -214,8 +217,8 @@ impl Mean {
         let pairs = self.elements.iter_mut().flatten().zip(other.elements.iter().flatten());
         pairs.for_each(|(sum, value)| *sum += value);
         let scattering = self.scattering + other.scattering;
-        self.asymmetry = (self.asymmetry * self.scattering + other.asymmetry * other.scattering)
-            / scattering;
+        self.asymmetry =
+            (self.asymmetry * self.scattering + other.asymmetry * other.scattering) / scattering;
         self.scattering = scattering;
         self.absorption += other.absorption;
         self.error += other.error;

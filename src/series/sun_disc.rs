@@ -88,7 +88,13 @@ impl Disc {
         let at = |k: isize| {
             let i = cell as isize + k;
             let last = self.count as isize;
-            let mirrored = if i < 0 { -i } else if i > last { 2 * last - i } else { i };
+            let mirrored = if i < 0 {
+                -i
+            } else if i > last {
+                2 * last - i
+            } else {
+                i
+            };
             &fine[mirrored as usize]
         };
         let weights = [

@@ -136,12 +136,7 @@ impl<'a> Tracer<'a> {
 
     /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
     /// `None` when the ray misses the particle.
-    pub fn trace<T: Scalar>(
-        &self,
-        u: T,
-        v: T,
-        visit: impl FnMut(Exit<T>),
-    ) -> Option<Remainder> {
+    pub fn trace<T: Scalar>(&self, u: T, v: T, visit: impl FnMut(Exit<T>)) -> Option<Remainder> {
         self.trace_with(u, v, false, visit)
     }
 
