@@ -4,7 +4,7 @@
 //! (a gamma distribution about x = 114 needs 5·10⁵ sizes for 1e-4). So the Debye series is cut
 //! behind an order Q: up to there the intensity is band-limited in x by the longest path, and the
 //! rule of equal steps has no error once the step resolves that path, whatever the number of
-//! steps; the orders behind the cut enter by their mean power ([`super::behind`]). Q grows until
+//! steps; the orders behind the cut enter by their mean power (`behind.rs`). Q grows until
 //! the difference to Q/2 says that the error is met.
 
 use super::angular::{self, AngleSet};
@@ -289,8 +289,8 @@ fn part(
 ) -> Result<Part, SeriesError> {
     let mut part = Part { elements: vec![[0.0; 4]; set.len()], ..Part::default() };
     let mut before: Option<Waves> = None;
-    for i in range.start..(range.end + 1).min(nodes.len()) {
-        let node = &nodes[i];
+    let last = (range.end + 1).min(nodes.len());
+    for (i, node) in nodes.iter().enumerate().take(last).skip(range.start) {
         let (x, area) = (TAU * node.radius / node.wavelength, (node.wavelength / TAU).powi(2));
         let Cut { a, b, electric, magnetic } = DebyeSeries::new(x, node.index)?.cut(cut);
         let waves = Waves { electric, magnetic, weight: node.weight * area };

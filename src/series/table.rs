@@ -5,7 +5,7 @@
 //! cross-section (their ripple is finer than the cells) is closed there too, by one factor.
 //!
 //! Means over drop sizes, over a band of wavelengths and over the sun's disc enter here
-//! ([`super::mean`], [`super::sun_disc`]); cross-sections are then those of the mean particle.
+//! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
 use super::debye::{DebyeSeries, Term};
 use super::lorenz_mie::Sphere;
