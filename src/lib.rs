@@ -19,6 +19,7 @@ pub mod color;
 pub mod medium;
 pub mod optics;
 pub mod shape;
+pub mod size_distribution;
 
 pub mod phase_table;
 pub mod scene;

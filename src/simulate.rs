@@ -15,7 +15,9 @@ use crate::plan::{Engine, Plan, PlanError, Symmetry};
 use crate::scene::{Particle, Scene};
 use crate::series::SeriesError;
 use crate::series::debye::Term;
-use crate::series::table::{Source, sphere_slab};
+use crate::series::mean::MeanError;
+use crate::series::table::{Source, SphereJob, sphere_slab};
+use crate::size_distribution::SizeDistribution;
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -29,6 +31,8 @@ pub enum SimulateError {
     Medium(#[from] MediumError),
     #[error(transparent)]
     Series(#[from] SeriesError),
+    #[error(transparent)]
+    Mean(#[from] MeanError),
     #[error(
         "energy does not add up at {wavelength_nm} nm: {residual:e} of the light is unaccounted for"
     )]
@@ -72,7 +76,7 @@ pub fn simulate<E: From<SimulateError>>(
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        return Ok(series_slab(scene, plan, wavelength, index)?);
+        return Ok(series_slab(scene, plan, wavelength)?);
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
@@ -211,18 +215,22 @@ fn far_field<'a>(
 const FIRST_SPOKE: f64 = 0.0123;
 
 /// The exact series for a sphere.
-fn series_slab(
-    scene: &Scene,
-    plan: &Plan,
-    wavelength: f64,
-    index: Complex64,
-) -> Result<Slab, SeriesError> {
+fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, MeanError> {
     let source = if plan.engine == Engine::LorenzMie {
         Source::LorenzMie
     } else {
         let orders = plan.orders.iter().map(|&p| Term::Order(p));
         Source::Debye(orders.chain(plan.forward_diffraction.then_some(Term::Diffraction)).collect())
     };
-    let (quantity, peak) = (scene.quantity, scene.forward_peak);
-    sphere_slab(&source, plan.radius, wavelength, index, &scene.theta, quantity, peak)
+    let one = SizeDistribution::Delta { radius: plan.radius };
+    let job = SphereJob {
+        source,
+        sizes: scene.size_distribution.unwrap_or(one),
+        medium: &scene.medium,
+        wavelength,
+        bandwidth: scene.bandwidth,
+        sun_disc: scene.sun_disc,
+        tolerance: scene.tolerance,
+    };
+    sphere_slab(&job, &scene.theta, scene.quantity, scene.forward_peak)
 }

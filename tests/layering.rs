@@ -16,7 +16,7 @@ const FLOORS: [(u32, &[&str]); 9] = [
     (4, &["trace", "export"]),
     (3, &["plan", "series", "hdf5", "compare", "render"]),
     (2, &["scene", "phase_table"]),
-    (1, &["optics", "medium", "shape", "color"]),
+    (1, &["optics", "medium", "shape", "color", "size_distribution"]),
     (0, &["math", "pending_file"]),
 ];
 

@@ -32,6 +32,7 @@ use gonio::plan::PlanError;
 use gonio::render::RenderError;
 use gonio::scene::SceneError;
 use gonio::series::SeriesError;
+use gonio::series::mean::MeanError;
 use gonio::shape::ShapeError;
 use gonio::simulate::SimulateError;
 use std::process::ExitCode;
@@ -153,6 +154,8 @@ fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
         || match cause.downcast_ref::<SimulateError>() {
             Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
             Some(SimulateError::Series(inner)) => is_wrong_input(inner),
+            Some(SimulateError::Mean(MeanError::Series(inner))) => is_wrong_input(inner),
+            Some(SimulateError::Mean(_)) => true,
             _ => false,
         }
 }

@@ -6,7 +6,7 @@ use gonio::medium::MediumSpec;
 use gonio::phase_table::{ForwardPeak, Quantity};
 use gonio::scene::{
     Choice, Diffraction, Grid, LightKeys, Method, ModelKeys, Named, Orders, ParticleKeys, Scene,
-    SceneError, SceneFile, ShapeName, TableKeys,
+    SceneError, SceneFile, ShapeName, SizeKeys, SunDisc, TableKeys,
 };
 use gonio::shape::RaindropModel;
 use std::path::Path;
@@ -41,15 +41,19 @@ pub struct ParticleFlags {
     #[arg(long, value_name = "MM", allow_negative_numbers = true,
           conflicts_with_all = ["radius_mm", "radius_um"])]
     pub diameter_mm: Option<f64>,
+    /// Many spheres: kind = "gamma", effective_radius_um = 10, effective_variance = 0.1
+    #[arg(long, value_name = "TABLE",
+          conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"])]
+    pub size_distribution: Option<SizeKeys>,
     /// Vertical over horizontal diameter of a spheroid
     #[arg(long, value_name = "RATIO", allow_negative_numbers = true)]
     pub axis_ratio: Option<f64>,
     /// Shape model of a raindrop
     #[arg(long, value_parser = word::<RaindropModel>())]
     pub model: Option<Choice<RaindropModel>>,
-    /// Medium of the particle, by name
-    #[arg(long, value_name = "NAME")]
-    pub medium: Option<String>,
+    /// Medium of the particle: a name, a file, or a table as in a scene file
+    #[arg(long, value_name = "NAME", value_parser = parse_medium)]
+    pub medium: Option<MediumSpec>,
     /// Constant index n+ik of the particle in place of a medium
     #[arg(long, value_name = "N[+K]", value_parser = parse_index, conflicts_with = "medium")]
     pub index: Option<[f64; 2]>,
@@ -68,6 +72,12 @@ pub struct LightFlags {
     /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
     #[arg(long, value_name = "NM", allow_hyphen_values = true)]
     pub wavelengths_nm: Option<Grid>,
+    /// Full width at half maximum of the band that each wavelength stands for (spheres)
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub bandwidth_nm: Option<f64>,
+    /// Mean over the sun's disc (spheres)
+    #[arg(long, value_parser = word::<SunDisc>())]
+    pub sun_disc: Option<Choice<SunDisc>>,
 }
 
 /// What is tabulated, and where.
@@ -137,17 +147,22 @@ pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// `water`, `glass.yml`, `{ solute = … }`
+fn parse_medium(text: &str) -> Result<MediumSpec, String> {
+    MediumSpec::parse(text).map_err(|error| error.to_string())
+}
+
 impl ParticleFlags {
     /// As keys of a scene.
     pub fn keys(&self) -> ParticleKeys {
-        let named = self.medium.clone().map(|name| MediumSpec::name(&name));
-        let medium =
-            self.index.map(|index| MediumSpec::Index { n: index[0], k: index[1] }).or(named);
+        let constant = self.index.map(|index| MediumSpec::Index { n: index[0], k: index[1] });
+        let medium = constant.or_else(|| self.medium.clone());
         ParticleKeys {
             shape: self.shape,
             radius_mm: self.radius_mm,
             radius_um: self.radius_um,
             diameter_mm: self.diameter_mm,
+            size_distribution: self.size_distribution,
             axis_ratio: self.axis_ratio,
             model: self.model,
             temperature_c: self.temperature_c,
@@ -165,6 +180,8 @@ impl SceneFlags {
             light: LightKeys {
                 sun_elevation_deg: light.sun_elevation_deg,
                 wavelengths_nm: light.wavelengths_nm,
+                bandwidth_nm: light.bandwidth_nm,
+                sun_disc: light.sun_disc,
             },
             table: TableKeys {
                 quantity: table.quantity,

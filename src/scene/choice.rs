@@ -1,7 +1,7 @@
 //! Words that stand for one of a closed set of values, in scene files and flags alike.
 
 use super::error::nearest;
-use super::{Diffraction, Method};
+use super::{Diffraction, Method, SunDisc};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use serde::de::Error as _;
@@ -83,6 +83,14 @@ impl Named for ForwardPeak {
         ("cell_average", ForwardPeak::CellAverage),
         ("point", ForwardPeak::Point),
         ("separate", ForwardPeak::Separate),
+    ];
+}
+
+impl Named for SunDisc {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("none", SunDisc::None),
+        ("uniform", SunDisc::Uniform),
+        ("limb-darkened", SunDisc::LimbDarkened),
     ];
 }
 

@@ -5,7 +5,8 @@
 
 use super::choice::{Choice, ShapeName};
 use super::grid::Grid;
-use super::{Diffraction, Method, Orders};
+use super::sizes::SizeKeys;
+use super::{Diffraction, Method, Orders, SunDisc};
 use crate::medium::MediumSpec;
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
@@ -21,8 +22,8 @@ pub struct SceneFile {
     pub model: ModelKeys,
 }
 
-/// `[particle]`: what scatters. Exactly one of the three sizes is to be given; it is that of the
-/// sphere of equal volume.
+/// `[particle]`: what scatters. Exactly one of the three sizes, that of the sphere of equal
+/// volume, or a distribution of sizes is to be given.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ParticleKeys {
@@ -34,6 +35,9 @@ pub struct ParticleKeys {
     pub radius_um: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diameter_mm: Option<f64>,
+    /// Many spheres in place of one: takes the place of the sizes above.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_distribution: Option<SizeKeys>,
     /// Vertical over horizontal diameter of a spheroid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axis_ratio: Option<f64>,
@@ -55,6 +59,11 @@ pub struct LightKeys {
     pub sun_elevation_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wavelengths_nm: Option<Grid>,
+    /// Each wavelength stands for a band of this full width at half maximum.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bandwidth_nm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sun_disc: Option<Choice<SunDisc>>,
 }
 
 /// `[table]`: what is tabulated, and where.
@@ -103,13 +112,14 @@ pub(super) const KEYS: [(&str, &[&str]); 4] = [
             "radius_mm",
             "radius_um",
             "diameter_mm",
+            "size_distribution",
             "axis_ratio",
             "model",
             "temperature_c",
             "medium",
         ],
     ),
-    ("light", &["sun_elevation_deg", "wavelengths_nm"]),
+    ("light", &["sun_elevation_deg", "wavelengths_nm", "bandwidth_nm", "sun_disc"]),
     ("table", &["quantity", "forward_peak", "bit_round", "theta_deg", "azimuth_deg"]),
     ("model", &["method", "interference", "diffraction", "orders", "tolerance", "rays_across"]),
 ];
@@ -136,8 +146,10 @@ impl SceneFile {
 impl ParticleKeys {
     fn overridden_by(mut self, flags: &ParticleKeys) -> ParticleKeys {
         // Another size replaces the size in whatever unit; another shape its own parameters.
-        if flags.radius_mm.or(flags.radius_um).or(flags.diameter_mm).is_some() {
+        let size = flags.radius_mm.or(flags.radius_um).or(flags.diameter_mm);
+        if size.is_some() || flags.size_distribution.is_some() {
             (self.radius_mm, self.radius_um, self.diameter_mm) = (None, None, None);
+            self.size_distribution = None;
         }
         if flags.shape.is_some() && flags.shape != self.shape {
             (self.axis_ratio, self.model) = (None, None);
@@ -150,6 +162,7 @@ impl ParticleKeys {
             radius_mm: flags.radius_mm.or(self.radius_mm),
             radius_um: flags.radius_um.or(self.radius_um),
             diameter_mm: flags.diameter_mm.or(self.diameter_mm),
+            size_distribution: flags.size_distribution.or(self.size_distribution),
             axis_ratio: flags.axis_ratio.or(self.axis_ratio),
             model: flags.model.or(self.model),
             temperature_c: flags.temperature_c.or(self.temperature_c),
@@ -163,6 +176,8 @@ impl LightKeys {
         LightKeys {
             sun_elevation_deg: flags.sun_elevation_deg.or(self.sun_elevation_deg),
             wavelengths_nm: flags.wavelengths_nm.clone().or(self.wavelengths_nm),
+            bandwidth_nm: flags.bandwidth_nm.or(self.bandwidth_nm),
+            sun_disc: flags.sun_disc.or(self.sun_disc),
         }
     }
 }

@@ -15,6 +15,7 @@ mod file;
 mod grid;
 mod read;
 mod size;
+mod sizes;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -30,10 +31,12 @@ pub use read::SceneText;
 #[cfg(feature = "hdf5")]
 pub(crate) use read::{line_at, read_limited};
 pub use size::{TableSize, human_bytes};
+pub use sizes::SizeKeys;
 
 use crate::medium::Medium;
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
+use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
 /// The scene that is taken where none is given: a raindrop of 0.5 mm, the sun at 20°.
@@ -76,6 +79,17 @@ pub enum Diffraction {
     Airy,
 }
 
+/// What the sun's disc of 0.53° does to a table of spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SunDisc {
+    /// The light comes from a point.
+    None,
+    /// The disc is equally bright everywhere.
+    Uniform,
+    /// It is darker and redder towards its rim.
+    LimbDarkened,
+}
+
 /// Orders to be summed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Orders {
@@ -88,10 +102,16 @@ pub enum Orders {
 /// A validated scene. Units: metres, radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
+    /// With a distribution of sizes the sphere of the effective radius.
     pub particle: Particle,
+    /// Many spheres in place of one.
+    pub size_distribution: Option<SizeDistribution>,
     pub medium: Medium,
     pub sun_elevation: f64,
     pub wavelengths: Vec<f64>,
+    /// Full width at half maximum of the band that each wavelength stands for; 0: none.
+    pub bandwidth: f64,
+    pub sun_disc: SunDisc,
     pub theta: Vec<f64>,
     pub phi: Vec<f64>,
     pub quantity: Quantity,

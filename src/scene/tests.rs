@@ -63,6 +63,7 @@ fn known_keys_are_those_of_the_structs() {
             radius_mm: Some(1.0),
             radius_um: Some(1.0),
             diameter_mm: Some(1.0),
+            size_distribution: Some(SizeKeys::Delta { radius_um: 1.0 }),
             axis_ratio: Some(1.0),
             model: Some(Choice(RaindropModel::BeardChuang1987)),
             temperature_c: Some(20.0),
@@ -71,6 +72,8 @@ fn known_keys_are_those_of_the_structs() {
         light: LightKeys {
             sun_elevation_deg: Some(0.0),
             wavelengths_nm: Some(Grid::List(vec![1.0])),
+            bandwidth_nm: Some(1.0),
+            sun_disc: Some(Choice(SunDisc::Uniform)),
         },
         table: TableKeys {
             quantity: Some(Choice(Quantity::Mueller)),

@@ -4,10 +4,11 @@ use super::choice::{Choice, Named, ShapeName};
 use super::error::SceneError;
 use super::file::{ParticleKeys, SceneFile};
 use super::grid::Grid;
-use super::{Diffraction, Method, Orders, Particle, Scene};
+use super::{Diffraction, Method, Orders, Particle, Scene, SunDisc};
 use crate::medium::{Medium, MediumSpec};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
+use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
 /// Axis ratios beyond these are needles and discs, for which neither rays nor drops are meant.
@@ -39,7 +40,10 @@ impl SceneFile {
         let wavelengths = wavelengths(light.wavelengths_nm.as_ref())?;
         let scene = Scene {
             particle: particle_of(particle)?,
+            size_distribution: size_distribution(particle)?,
             medium: medium_of(particle, folder, &wavelengths)?,
+            bandwidth: bandwidth(light.bandwidth_nm, &wavelengths)?,
+            sun_disc: chosen(light.sun_disc, "light.sun_disc")?,
             sun_elevation: sun_elevation(light.sun_elevation_deg)?,
             wavelengths,
             theta: theta(table.theta_deg.as_ref())?,
@@ -56,6 +60,7 @@ impl SceneFile {
             toml: resolved.to_toml(),
         };
         scene.check_method()?;
+        scene.check_means()?;
         scene.check_size()?;
         Ok(scene)
     }
@@ -77,6 +82,7 @@ impl SceneFile {
         let range = |from, to, count| Grid::Range { from, to, count };
         full.light.sun_elevation_deg.get_or_insert(20.0);
         full.light.wavelengths_nm.get_or_insert_with(|| range(380.0, 720.0, 33));
+        full.light.sun_disc.get_or_insert(Choice(SunDisc::None));
         full.table.theta_deg.get_or_insert_with(|| range(0.0, 180.0, 1801));
         full.table.azimuth_deg.get_or_insert_with(|| range(0.0, 360.0, 361));
         full.table.quantity.get_or_insert(Choice(Quantity::PhaseFunction));
@@ -99,6 +105,7 @@ fn chosen<T: Named>(choice: Option<Choice<T>>, key: &str) -> Result<T, SceneErro
 
 fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
     let shape = chosen(keys.shape, "particle.shape")?;
+    size_distribution(keys)?;
     if let (Some(ratio), true) = (keys.axis_ratio, shape != ShapeName::Spheroid) {
         let accepted = format!("only a spheroid has an axis ratio; the shape is {}", shape.name());
         return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
@@ -108,7 +115,13 @@ fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
         return Err(SceneError::invalid("particle.model", model.0.name(), accepted));
     }
     match shape {
-        ShapeName::Sphere => Ok(Particle::Sphere { radius: radius(keys, plain_radius)? }),
+        ShapeName::Sphere => {
+            let radius = match size_distribution(keys)? {
+                Some(sizes) => sizes.effective_radius(),
+                None => radius(keys, plain_radius)?,
+            };
+            Ok(Particle::Sphere { radius })
+        }
         ShapeName::Spheroid => Ok(Particle::Spheroid {
             radius: radius(keys, plain_radius)?,
             axis_ratio: axis_ratio(keys.axis_ratio)?,
@@ -119,6 +132,22 @@ fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
             Ok(Particle::Raindrop { radius, model })
         }
     }
+}
+
+/// Many spheres in place of one.
+fn size_distribution(keys: &ParticleKeys) -> Result<Option<SizeDistribution>, SceneError> {
+    const KEY: &str = "particle.size_distribution";
+    let Some(sizes) = &keys.size_distribution else { return Ok(None) };
+    let shape = chosen(keys.shape, "particle.shape")?;
+    if shape != ShapeName::Sphere {
+        let accepted = format!("only spheres have one; the shape is {}", shape.name());
+        return Err(SceneError::invalid(KEY, sizes, accepted));
+    }
+    if keys.radius_mm.or(keys.radius_um).or(keys.diameter_mm).is_some() {
+        let accepted = "the size is given twice; leave out radius_mm, radius_um and diameter_mm";
+        return Err(SceneError::invalid(KEY, sizes, accepted));
+    }
+    sizes.checked().map(Some).map_err(|accepted| SceneError::invalid(KEY, sizes, accepted))
 }
 
 /// The radius in metres from whichever size was given; `accept` judges it in millimetres.
@@ -231,6 +260,20 @@ fn sun_elevation(degrees: Option<f64>) -> Result<f64, SceneError> {
     Err(SceneError::invalid("light.sun_elevation_deg", degrees, accepted))
 }
 
+/// Width of the band about each wavelength, metres.
+fn bandwidth(nm: Option<f64>, wavelengths: &[f64]) -> Result<f64, SceneError> {
+    let nm = nm.unwrap_or_default();
+    let shortest = wavelengths.iter().copied().fold(f64::INFINITY, f64::min) * 1e9;
+    if nm >= 0.0 && nm <= 0.5 * shortest {
+        return Ok(nm * 1e-9);
+    }
+    let accepted = format!(
+        "full width at half maximum, 0 to {} nm (half of the shortest wavelength)",
+        0.5 * shortest
+    );
+    Err(SceneError::invalid("light.bandwidth_nm", nm, accepted))
+}
+
 /// The values of an axis, all inside `limits`; `ascending` where the order matters.
 fn axis(
     key: &str,
@@ -340,6 +383,32 @@ impl Scene {
             let accepted =
                 "Lorenz–Mie has all orders at once; method = \"debye\" or \"rays\" takes a list";
             return Err(SceneError::invalid("model.orders", format!("{list:?}"), accepted));
+        }
+        Ok(())
+    }
+
+    /// Means over sizes, bands and the sun's disc are taken of the exact series.
+    fn check_means(&self) -> Result<(), SceneError> {
+        let sphere = matches!(self.particle, Particle::Sphere { .. });
+        let exact = sphere && self.method != Method::Rays;
+        let many = self.size_distribution.is_some();
+        let single = self.method == Method::Debye && (many || self.bandwidth > 0.0);
+        if exact && !single {
+            return Ok(());
+        }
+        let accepted = "means over sizes, bands and the sun's disc need a sphere and method = \
+                        \"mie\" (or \"auto\"); \"debye\" takes the sun's disc alone";
+        if many {
+            let key = "particle.size_distribution";
+            let method = format!("(many spheres) with method = \"{}\"", self.method.name());
+            return Err(SceneError::invalid(key, method, accepted));
+        }
+        if self.bandwidth > 0.0 {
+            let nm = self.bandwidth * 1e9;
+            return Err(SceneError::invalid("light.bandwidth_nm", nm, accepted));
+        }
+        if self.sun_disc != SunDisc::None {
+            return Err(SceneError::invalid("light.sun_disc", self.sun_disc.name(), accepted));
         }
         Ok(())
     }

@@ -60,6 +60,35 @@ struct Interface {
     all_internal: Complex64,
 }
 
+/// The series cut behind an order. What is kept has no feature in x finer than the longest path
+/// of its orders allows; the resonances of the sphere lie in what is behind.
+#[derive(Clone, Debug)]
+pub struct Cut {
+    /// a_n and b_n of diffraction and the orders up to the cut.
+    pub a: Vec<Complex64>,
+    pub b: Vec<Complex64>,
+    /// The waves behind the cut.
+    pub electric: Vec<Behind>,
+    pub magnetic: Vec<Behind>,
+}
+
+/// A partial wave's orders behind a cut: `-first Σ_{j≥0} internal^j`.
+#[derive(Clone, Copy, Debug)]
+pub struct Behind {
+    /// `½ T R11^last`: the first order behind the cut, `last + 1`.
+    pub first: Complex64,
+    /// R11.
+    pub internal: Complex64,
+}
+
+impl Interface {
+    fn cut(&self, last: u32) -> (Complex64, Behind) {
+        let turns = self.internal.powu(last);
+        let kept = self.outside - 0.5 * self.all_internal * (1.0 - turns);
+        (kept, Behind { first: 0.5 * self.transmission * turns, internal: self.internal })
+    }
+}
+
 /// A sphere with its partial waves taken apart.
 #[derive(Clone, Debug)]
 pub struct DebyeSeries {
@@ -119,6 +148,13 @@ impl DebyeSeries {
             Term::Order(p) => -0.5 * wave.transmission * wave.internal.powu(p - 1),
             Term::All => wave.outside - 0.5 * wave.all_internal,
         }
+    }
+
+    /// The series cut behind an order: see [`Cut`].
+    pub fn cut(&self, last: u32) -> Cut {
+        let (a, electric) = self.electric.iter().map(|wave| wave.cut(last)).unzip();
+        let (b, magnetic) = self.magnetic.iter().map(|wave| wave.cut(last)).unzip();
+        Cut { a, b, electric, magnetic }
     }
 
     /// Largest part of any coefficient that the orders above `order` still hold,

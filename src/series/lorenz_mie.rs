@@ -152,10 +152,9 @@ fn partial_complex(n: usize, x: f64, h: Complex64, difference: Complex64, f: &Ps
     Partial { coefficient: numerator / denominator, absorbed: -h.im / denominator.norm_sqr() }
 }
 
-/// Sums of Bohren & Huffman 1983, eqs. 4.61, 4.62 and of sec. 4.5; `absorbed` is
-/// Σ (2n+1)(Re(a+b) - |a|² - |b|²).
-fn efficiencies(x: f64, a: &[Complex64], b: &[Complex64], absorbed: f64) -> Efficiencies {
-    let (mut scattered, mut forward, mut back) = (0.0, 0.0, Complex64::ZERO);
+/// Σ (2n+1)(|a_n|² + |b_n|²), and the sum for the asymmetry (Bohren & Huffman 1983, sec. 4.5).
+pub(super) fn sums(a: &[Complex64], b: &[Complex64]) -> (f64, f64) {
+    let (mut scattered, mut forward) = (0.0, 0.0);
     for k in 0..a.len() {
         let n = (k + 1) as f64;
         let odd = 2.0 * n + 1.0;
@@ -165,6 +164,17 @@ fn efficiencies(x: f64, a: &[Complex64], b: &[Complex64], absorbed: f64) -> Effi
             let product = a[k] * a[k + 1].conj() + b[k] * b[k + 1].conj();
             forward += n * (n + 2.0) / (n + 1.0) * product.re;
         }
+    }
+    (scattered, forward)
+}
+
+/// Sums of Bohren & Huffman 1983, eqs. 4.61, 4.62 and of sec. 4.5; `absorbed` is
+/// Σ (2n+1)(Re(a+b) - |a|² - |b|²).
+fn efficiencies(x: f64, a: &[Complex64], b: &[Complex64], absorbed: f64) -> Efficiencies {
+    let (scattered, forward) = sums(a, b);
+    let mut back = Complex64::ZERO;
+    for k in 0..a.len() {
+        let odd = (2 * k + 3) as f64; // 2n + 1
         let alternating = if k % 2 == 0 { -odd } else { odd };
         back += (a[k] - b[k]) * alternating;
     }

@@ -1,11 +1,14 @@
 //! Exact series for the homogeneous sphere: Lorenz–Mie and its Debye expansion.
 //!
 //! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`]); [`angular`] sums them
-//! over the angles.
+//! over the angles; [`mean`] averages over sizes and wavelengths.
 
 pub mod angular;
+mod behind;
 pub mod debye;
 pub mod lorenz_mie;
+pub mod mean;
+mod sun_disc;
 pub mod table;
 
 use num_complex::Complex64;

@@ -3,12 +3,19 @@
 //! Where cells of the θ axis are coarser than the lobes of the forward peak, a sample holds the mean
 //! over its cell; what the samples of the rest of the sphere miss of the exact scattering
 //! cross-section (their ripple is finer than the cells) is closed there too, by one factor.
+//!
+//! Means over drop sizes, over a band of wavelengths and over the sun's disc enter here
+//! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
-use super::SeriesError;
 use super::debye::{DebyeSeries, Term};
 use super::lorenz_mie::Sphere;
-use crate::optics::AmplitudeMatrix;
+use super::mean::{Ensemble, MeanError};
+use super::sun_disc::Disc;
+use crate::color::LimbDarkening;
+use crate::medium::Medium;
 use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
+use crate::scene::SunDisc;
+use crate::size_distribution::SizeDistribution;
 use ndarray::Array3;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
@@ -17,8 +24,23 @@ use std::f64::consts::{PI, TAU};
 #[derive(Clone, Debug)]
 pub enum Source {
     LorenzMie,
-    /// Debye terms; their sum is normalised with the exact scattering cross-section.
+    /// Debye terms; their sum is normalised with the exact scattering cross-section. Of one size
+    /// and one wavelength only.
     Debye(Vec<Term>),
+}
+
+/// Spheres and their light.
+#[derive(Clone, Debug)]
+pub struct SphereJob<'a> {
+    pub source: Source,
+    pub sizes: SizeDistribution,
+    pub medium: &'a Medium,
+    /// Wavelength in vacuum and width of a band about it, metres.
+    pub wavelength: f64,
+    pub bandwidth: f64,
+    pub sun_disc: SunDisc,
+    /// Relative error of means asked for.
+    pub tolerance: f64,
 }
 
 /// Lobes of the forward peak that are averaged over cells, and samples per lobe.
@@ -27,80 +49,164 @@ const SAMPLES_PER_LOBE: f64 = 8.0;
 /// Step of θ, in lobes, from which on cells hold means. The sum over point samples is off by about
 /// 0.01 (step x)², so that with finer steps it misses 1 by less than 1e-3.
 const COARSE: f64 = 0.08;
+/// Relative error of the series itself.
+const SERIES_ERROR: f64 = 1e-9;
+/// Relative error of a mean over the sun's disc, see [`super::sun_disc`].
+const DISC_ERROR: f64 = 3e-4;
 
-/// One wavelength of a sphere's table.
-///
-/// `theta` ascending, radians; `radius` and `wavelength` in metres. The values have one azimuth.
+/// Curves at some angles, with the cross-sections.
+struct Curves {
+    /// S11, S12, S33, S34 as areas per solid angle.
+    elements: Vec<[f64; 4]>,
+    scattering: f64,
+    extinction: f64,
+    asymmetry: f64,
+    error: f64,
+}
+
+/// One wavelength of a table of spheres: `theta` ascending, radians. The values have one azimuth.
 ///
 /// # Errors
-/// An index or size parameter that the series does not accept.
+/// A wavelength outside the medium's data, an index or size parameter that the series does not
+/// accept, or a mean over too many spheres.
 pub fn sphere_slab(
-    source: &Source,
-    radius: f64,
-    wavelength: f64,
-    index: Complex64,
+    job: &SphereJob,
     theta: &[f64],
     quantity: Quantity,
     forward_peak: ForwardPeak,
-) -> Result<Slab, SeriesError> {
-    let size_parameter = TAU * radius / wavelength;
-    let sphere = Sphere::new(size_parameter, index)?;
-    let amplitudes = |angles: &[f64]| -> Result<Vec<(Complex64, Complex64)>, SeriesError> {
-        Ok(match source {
-            Source::LorenzMie => sphere.amplitudes_parallel(angles),
-            Source::Debye(terms) => {
-                DebyeSeries::new(size_parameter, index)?.sum_parallel(terms, angles)
-            }
-        })
-    };
-    let q = sphere.efficiencies();
-    let scale = 1.0 / (size_parameter * size_parameter * PI * q.q_sca);
-    let mut mueller: Vec<[[f64; 4]; 4]> =
-        amplitudes(theta)?.into_iter().map(|pair| matrix(pair).mueller()).collect();
+) -> Result<Slab, MeanError> {
+    let (wavelength, index) = (job.wavelength, job.medium.index(job.wavelength)?);
+    let largest = TAU * job.sizes.limits(job.tolerance).1 / wavelength;
+    let mut cells = Vec::new();
+    if forward_peak == ForwardPeak::CellAverage {
+        cells = coarse_cells(theta, largest);
+    }
+    let within: Vec<(Vec<f64>, Vec<f64>)> =
+        cells.iter().map(|&(low, high)| samples(low, high, largest)).collect();
+    let angles: Vec<f64> =
+        theta.iter().chain(within.iter().flat_map(|(angles, _)| angles)).copied().collect();
+    let curves = job.seen(largest, index, &angles)?;
+
+    let scale = 1.0 / curves.scattering;
+    let (mut elements, mut rest) = (curves.elements, Vec::new());
+    if !cells.is_empty() {
+        rest = elements.split_off(theta.len());
+    }
     let axes = Axes { wavelength: vec![wavelength], theta: theta.to_vec(), phi: vec![0.0] };
     let weights = axes.solid_angle();
-    let sum = |m: &[[[f64; 4]; 4]]| -> f64 {
-        m.iter().zip(&weights).map(|(m, w)| m[0][0] * scale * w).sum()
+    let sum = |rows: &[[f64; 4]]| -> f64 {
+        rows.iter().zip(&weights).map(|(row, w)| row[0] * scale * w).sum()
     };
-    let sum_before_peak = sum(&mueller);
-    if forward_peak == ForwardPeak::CellAverage {
-        let cells = coarse_cells(theta, size_parameter);
-        for (i, &(low, high)) in cells.iter().enumerate() {
-            let (angles, shares) = samples(low, high, size_parameter);
-            mueller[i] = mean(&amplitudes(&angles)?, &shares);
-        }
-        let total: f64 = weights.sum();
-        if (total / (4.0 * PI) - 1.0).abs() < 1e-6 && !cells.is_empty() {
-            let peak = sum(&mueller[..cells.len()]);
-            let factor = ((1.0 - sum(&mueller) + peak) / peak).clamp(0.5, 2.0);
-            mueller[..cells.len()].iter_mut().flatten().flatten().for_each(|m| *m *= factor);
-        }
+    let sum_before_peak = sum(&elements);
+    let mut taken = 0;
+    for (i, (angles, shares)) in within.iter().enumerate() {
+        elements[i] = mean(&rest[taken..taken + angles.len()], shares);
+        taken += angles.len();
     }
-    let elements = quantity.elements();
-    let values = Array3::from_shape_fn((elements, theta.len(), 1), |(e, i, _)| {
-        (mueller[i][e / 4][e % 4] * scale) as f32
+    let total: f64 = weights.sum();
+    if (total / (4.0 * PI) - 1.0).abs() < 1e-6 && !cells.is_empty() {
+        let peak = sum(&elements[..cells.len()]);
+        let factor = ((1.0 - sum(&elements) + peak) / peak).clamp(0.5, 2.0);
+        elements[..cells.len()].iter_mut().flatten().for_each(|m| *m *= factor);
+    }
+    let values = Array3::from_shape_fn((quantity.elements(), theta.len(), 1), |(e, i, _)| {
+        (of_sphere(&elements[i], e) * scale) as f32
     });
-    let shadow = PI * radius * radius;
     Ok(Slab {
         wavelength,
         index,
         values,
         caustic_order: None,
-        scattering_cross_section: q.q_sca * shadow,
-        extinction_cross_section: q.q_ext * shadow,
-        asymmetry: q.asymmetry,
+        scattering_cross_section: curves.scattering,
+        extinction_cross_section: curves.extinction,
+        asymmetry: curves.asymmetry,
         energy: None,
         sum_before_peak,
         peak_share: 0.0,
-        error_estimate: match source {
-            Source::LorenzMie => 1e-9,
-            Source::Debye(_) => f64::NAN,
-        },
+        error_estimate: curves.error,
     })
 }
 
-fn matrix((s1, s2): (Complex64, Complex64)) -> AmplitudeMatrix {
-    AmplitudeMatrix { s1, s2, ..Default::default() }
+/// Element `e` (row by row) of a sphere's Mueller matrix from S11, S12, S33, S34.
+fn of_sphere(elements: &[f64; 4], e: usize) -> f64 {
+    match e {
+        0 | 5 => elements[0],
+        1 | 4 => elements[1],
+        10 | 15 => elements[2],
+        11 => elements[3],
+        14 => -elements[3],
+        _ => 0.0,
+    }
+}
+
+impl SphereJob<'_> {
+    /// The curves as seen with the sun's disc, for spheres up to a size parameter.
+    fn seen(&self, largest: f64, index: Complex64, theta: &[f64]) -> Result<Curves, MeanError> {
+        let limb = match self.sun_disc {
+            SunDisc::None => return self.curves(index, theta),
+            SunDisc::Uniform => None,
+            SunDisc::LimbDarkened => Some(LimbDarkening::at(self.wavelength)),
+        };
+        let disc = Disc::new(largest, limb);
+        let mut curves = self.curves(index, &disc.fine_angles())?;
+        curves.elements = disc.means(&curves.elements, theta);
+        curves.error = curves.error.max(DISC_ERROR);
+        Ok(curves)
+    }
+
+    /// The curves of a point-like sun.
+    fn curves(&self, index: Complex64, theta: &[f64]) -> Result<Curves, MeanError> {
+        let radius = match self.sizes {
+            SizeDistribution::Delta { radius } if self.bandwidth == 0.0 => radius,
+            _ => return self.mean_curves(theta),
+        };
+        let x = TAU * radius / self.wavelength;
+        let sphere = Sphere::new(x, index)?;
+        let (amplitudes, error) = match &self.source {
+            Source::LorenzMie => (sphere.amplitudes_parallel(theta), SERIES_ERROR),
+            Source::Debye(terms) => {
+                (DebyeSeries::new(x, index)?.sum_parallel(terms, theta), f64::NAN)
+            }
+        };
+        let area = (self.wavelength / TAU).powi(2);
+        let shadow = PI * radius * radius;
+        let q = sphere.efficiencies();
+        Ok(Curves {
+            elements: amplitudes.into_iter().map(|pair| of_pair(pair, area)).collect(),
+            scattering: q.q_sca * shadow,
+            extinction: q.q_ext * shadow,
+            asymmetry: q.asymmetry,
+            error,
+        })
+    }
+
+    fn mean_curves(&self, theta: &[f64]) -> Result<Curves, MeanError> {
+        let ensemble = Ensemble {
+            sizes: self.sizes,
+            medium: self.medium,
+            wavelength: self.wavelength,
+            bandwidth: self.bandwidth,
+            tolerance: self.tolerance,
+        };
+        let mean = ensemble.mean(theta)?;
+        Ok(Curves {
+            elements: mean.elements,
+            scattering: mean.scattering,
+            extinction: mean.scattering + mean.absorption,
+            asymmetry: mean.asymmetry,
+            error: mean.error,
+        })
+    }
+}
+
+fn of_pair((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {
+    let (perpendicular, parallel, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
+    [
+        0.5 * area * (parallel + perpendicular),
+        0.5 * area * (parallel - perpendicular),
+        area * cross.re,
+        -area * cross.im,
+    ]
 }
 
 /// Cells about the forward direction that are coarser than [`COARSE`]. The cell at 0 is half as wide
@@ -129,13 +235,10 @@ fn samples(low: f64, high: f64, size_parameter: f64) -> (Vec<f64>, Vec<f64>) {
     (angles, shares)
 }
 
-fn mean(amplitudes: &[(Complex64, Complex64)], shares: &[f64]) -> [[f64; 4]; 4] {
-    let mut sum = [[0.0; 4]; 4];
-    for (&pair, share) in amplitudes.iter().zip(shares) {
-        let mueller = matrix(pair).mueller();
-        for (to, from) in sum.iter_mut().flatten().zip(mueller.iter().flatten()) {
-            *to += share * from;
-        }
+fn mean(rows: &[[f64; 4]], shares: &[f64]) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for (row, share) in rows.iter().zip(shares) {
+        sum.iter_mut().zip(row).for_each(|(to, from)| *to += share * from);
     }
     sum
 }
@@ -151,16 +254,17 @@ mod tests {
             for count in [46, 91, 181, 361, 721, 1801, 3601] {
                 let theta: Vec<f64> =
                     (0..count).map(|i| PI * i as f64 / (count - 1) as f64).collect();
-                let slab = sphere_slab(
-                    &Source::LorenzMie,
-                    radius,
-                    5e-7,
-                    Complex64::new(1.333, 0.0),
-                    &theta,
-                    Quantity::PhaseFunction,
-                    ForwardPeak::CellAverage,
-                )
-                .unwrap();
+                let job = SphereJob {
+                    source: Source::LorenzMie,
+                    sizes: SizeDistribution::Delta { radius },
+                    medium: &Medium::Constant(Complex64::new(1.333, 0.0)),
+                    wavelength: 5e-7,
+                    bandwidth: 0.0,
+                    sun_disc: SunDisc::None,
+                    tolerance: 1e-3,
+                };
+                let (quantity, peak) = (Quantity::PhaseFunction, ForwardPeak::CellAverage);
+                let slab = sphere_slab(&job, &theta, quantity, peak).unwrap();
                 let axes = Axes { wavelength: vec![5e-7], theta, phi: vec![0.0] };
                 let sum = slab.sum(&axes);
                 assert!((sum - 1.0).abs() < 1e-3, "{radius} m, {count} angles: {sum}");

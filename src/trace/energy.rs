@@ -55,7 +55,7 @@ fn add_ray(tracer: &Tracer, wavefront: &Wavefront, i: usize, j: usize, sum: &mut
     let weight = wavefront.share(i, j) / wavefront.area();
     let left = &mut sum.left_by_order;
     let momentum = &mut sum.forward_momentum;
-    let remainder = tracer.trace(u, v, |exit| {
+    let remainder = tracer.trace_to_the_end(u, v, |exit| {
         let square =
             |e: &crate::math::vec3::Field| e.x.norm_sqr() + e.y.norm_sqr() + e.z.norm_sqr();
         let power = 0.5 * (square(&exit.field[0]) + square(&exit.field[1]));

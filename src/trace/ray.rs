@@ -36,6 +36,10 @@ pub struct Tracer<'a> {
     interface: Interface,
 }
 
+/// A ray with less power than this is spent, and so many hits are followed at most.
+const SPENT: f64 = 1e-6;
+const MOST_HITS: usize = 10_000;
+
 /// What is left of a ray's power when tracing stops, as fractions of what it brought.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Remainder {
@@ -160,10 +164,27 @@ impl<'a> Tracer<'a> {
 
     /// Trace the ray launched at `(u, v)`; `visit` is called at every exit, in order.
     /// `None` when the ray misses the particle.
-    pub fn trace<T: Scalar>(
+    pub fn trace<T: Scalar>(&self, u: T, v: T, visit: impl FnMut(Exit<T>)) -> Option<Remainder> {
+        self.trace_with(u, v, false, visit)
+    }
+
+    /// As [`Tracer::trace`], and an absorbing particle goes on to absorb behind the last order
+    /// until next to nothing is left: grazing rays, of which little leaves at each hit, give it
+    /// much of what they hold.
+    pub fn trace_to_the_end<T: Scalar>(
         &self,
         u: T,
         v: T,
+        visit: impl FnMut(Exit<T>),
+    ) -> Option<Remainder> {
+        self.trace_with(u, v, self.decrement > 0.0, visit)
+    }
+
+    fn trace_with<T: Scalar>(
+        &self,
+        u: T,
+        v: T,
+        to_the_end: bool,
         mut visit: impl FnMut(Exit<T>),
     ) -> Option<Remainder> {
         let mut ray = self.launch(u, v)?;
@@ -188,13 +209,36 @@ impl<'a> Tracer<'a> {
             }
             inside = event.reflect(&inside);
         }
-        let left = power(&inside);
+        let mut left = power(&inside);
+        if to_the_end {
+            let absorbed = self.absorb_the_rest(inside, tangent);
+            remainder.absorbed += absorbed;
+            left -= absorbed;
+        }
         if totally_reflected {
             remainder.totally_reflected = left;
         } else {
             remainder.truncated = left;
         }
         Some(remainder)
+    }
+
+    /// Power that a ray inside still loses to absorption, hit by hit until it is spent.
+    fn absorb_the_rest<T: Scalar>(
+        &self,
+        mut inside: Ray<T>,
+        mut tangent: crate::shape::Tangent<T>,
+    ) -> f64 {
+        let mut absorbed = 0.0;
+        for _ in 0..MOST_HITS {
+            if power(&inside) < SPENT {
+                break;
+            }
+            absorbed += self.cross(&mut inside, &tangent);
+            tangent = self.shape.tangent(inside.position);
+            inside = Event::new(&mut inside, &tangent, &self.interface).reflect(&inside);
+        }
+        absorbed
     }
 
     /// The ray at its first meeting with the surface.

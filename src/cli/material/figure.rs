@@ -77,6 +77,8 @@ impl IndexFigure {
     {
         let mut chart = ChartBuilder::on(area)
             .margin(12)
+            // Half of the last label stands beyond the axis.
+            .margin_right(30)
             .x_label_area_size(44)
             .y_label_area_size(96)
             .build_cartesian_2d(self.range.0..self.range.1, y)?;

@@ -1,0 +1,321 @@
+//! Means over drop sizes and over a band of wavelengths, with a stated error.
+//!
+//! The integrand has ever narrower resonances; equal steps in x converge to it only as 1/steps
+//! (a gamma distribution about x = 114 needs 5·10⁵ sizes for 1e-4). So the Debye series is cut
+//! behind an order Q: up to there the intensity is band-limited in x by the longest path, and the
+//! rule of equal steps has no error once the step resolves that path, whatever the number of
+//! steps; the orders behind the cut enter by their mean power (`behind.rs`). Q grows until
+//! the difference to Q/2 says that the error is met.
+
+use super::angular::{self, AngleSet};
+use super::behind::{Products, Waves};
+use super::debye::{Cut, DebyeSeries};
+use super::lorenz_mie::{Sphere, sums};
+use super::{SeriesError, checked_term_count};
+use crate::medium::{Medium, MediumError};
+use crate::size_distribution::SizeDistribution;
+use num_complex::Complex64;
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+/// What is averaged: spheres of a medium at one wavelength of a table.
+#[derive(Clone, Debug)]
+pub struct Ensemble<'a> {
+    pub sizes: SizeDistribution,
+    pub medium: &'a Medium,
+    /// Wavelength in vacuum, metres.
+    pub wavelength: f64,
+    /// Full width at half maximum (metres) of a band about it, of the shape `cos²`; 0: none.
+    pub bandwidth: f64,
+    /// Relative error asked for.
+    pub tolerance: f64,
+}
+
+/// Why an average cannot be taken.
+#[derive(Debug, thiserror::Error)]
+pub enum MeanError {
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    #[error(transparent)]
+    Medium(#[from] MediumError),
+    #[error(
+        "the average over sizes or wavelengths from size parameter {from:.0} to {to:.0} needs \
+         {steps:.1e} spheres: accepted are at most {MAX_STEPS:e}; take a narrower distribution, \
+         smaller particles or a larger tolerance"
+    )]
+    TooLong { from: f64, to: f64, steps: f64 },
+}
+
+/// Mean per particle.
+#[derive(Clone, Debug)]
+pub struct Mean {
+    /// S11, S12, S33, S34 by angle as areas per solid angle, m²/sr.
+    pub elements: Vec<[f64; 4]>,
+    /// Cross-sections, m².
+    pub scattering: f64,
+    pub absorption: f64,
+    pub asymmetry: f64,
+    /// Relative error, root mean square over all angles, estimated from half the cut.
+    pub error: f64,
+    /// Spheres that were solved.
+    pub spheres: usize,
+}
+
+/// Order of the first cut at a tolerance of 1e-4, and its least; the rest is up to the estimate.
+const CUT: (f64, f64) = (24.0, 8.0);
+/// Most orders before the cut.
+const MAX_CUT: u32 = 256;
+/// The longest paths kept that carry light are those of rays near the rim, `2 √(n² - 1)` radii per
+/// order; with this margin, and this much for the ways outside, the steps resolve the beat of the
+/// last order with diffraction, and more steps change nothing.
+const PATH_MARGIN: f64 = 1.1;
+const WAYS_OUTSIDE: f64 = 4.0;
+/// Most spheres of one average.
+const MAX_STEPS: f64 = 1e7;
+/// Share of the light in the neglected tails of the distribution, in units of the tolerance.
+const TAIL: f64 = 0.05;
+/// Cut Q is at least that much more exact than Q/2 (measured: 2 to 10 times).
+const GAIN: f64 = 2.0;
+/// Angles at which the two cuts are compared.
+const COMPARED: usize = 61;
+/// Stretches that are summed apart; a fixed number, so that threads do not change the sums.
+const PARTS: usize = 64;
+/// Standard deviation of the band `cos²` in units of its full width at half maximum.
+const BAND_DEVIATION: f64 = 0.361_512_4;
+
+/// One sphere of an average.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    radius: f64,
+    wavelength: f64,
+    index: Complex64,
+    /// Share of all particles, or of the band.
+    weight: f64,
+}
+
+impl Ensemble<'_> {
+    /// The mean at scattering angles (radians).
+    ///
+    /// # Errors
+    /// A wavelength outside the medium's data, an index the series does not accept, or more
+    /// spheres than [`MeanError::TooLong`] allows.
+    pub fn mean(&self, theta: &[f64]) -> Result<Mean, MeanError> {
+        let spread = !matches!(self.sizes, SizeDistribution::Delta { .. });
+        if !(spread && self.bandwidth > 0.0) {
+            return self.mean_along_one(theta);
+        }
+        // Over sizes nothing but the slow change of the index is left of the band: three
+        // wavelengths with its mean, variance and skewness are enough.
+        let offset = 3f64.sqrt() * BAND_DEVIATION * self.bandwidth;
+        let mut total: Option<Mean> = None;
+        for (shift, weight) in [(-offset, 1.0 / 6.0), (0.0, 2.0 / 3.0), (offset, 1.0 / 6.0)] {
+            let wavelength = self.wavelength + shift;
+            let one = Ensemble { wavelength, bandwidth: 0.0, ..self.clone() };
+            let mean = one.mean_along_one(theta)?;
+            total = Some(match total {
+                None => mean.scaled(weight),
+                Some(sum) => sum.plus(&mean.scaled(weight)),
+            });
+        }
+        total.ok_or_else(|| SeriesError::SizeParameter(f64::NAN).into())
+    }
+
+    /// The mean over sizes, or over wavelengths.
+    fn mean_along_one(&self, theta: &[f64]) -> Result<Mean, MeanError> {
+        let first = CUT.0 * (1e-4 / self.tolerance).powf(0.2);
+        let mut cut = 2 * (0.5 * first.clamp(CUT.1, f64::from(MAX_CUT))).ceil() as u32;
+        loop {
+            let mean = self.mean_behind(theta, cut)?;
+            if mean.error <= self.tolerance || 2 * cut > MAX_CUT {
+                return Ok(mean);
+            }
+            cut *= 2;
+        }
+    }
+
+    /// Range of the size parameter.
+    fn range(&self) -> (f64, f64) {
+        let (from, to) = self.sizes.limits(TAIL * self.tolerance);
+        let reach = self.bandwidth;
+        (TAU * from / (self.wavelength + reach), TAU * to / (self.wavelength - reach))
+    }
+
+    /// The spheres of an average with its weights, in ascending order of x.
+    fn nodes(&self, steps: usize) -> Result<Vec<Node>, MeanError> {
+        if self.bandwidth > 0.0 {
+            let SizeDistribution::Delta { radius } = self.sizes else { return Ok(Vec::new()) };
+            return (0..steps).map(|i| self.band_node(radius, i, steps)).collect();
+        }
+        let index = self.medium.index(self.wavelength)?;
+        let (from, to) = self.sizes.limits(TAIL * self.tolerance);
+        let (periodic, number) = (self.sizes.has_steps(), self.sizes.number());
+        let nodes = (0..steps).map(|i| {
+            let t = (i as f64 + 0.5) / steps as f64;
+            // sin² steps make a function that ends in a step end smoothly.
+            let (place, share) = if periodic {
+                (t - (TAU * t).sin() / TAU, 1.0 - (TAU * t).cos())
+            } else {
+                (t, 1.0)
+            };
+            let radius = from + (to - from) * place;
+            let weight = share * self.sizes.density(radius) * (to - from) / steps as f64 / number;
+            Node { radius, wavelength: self.wavelength, index, weight }
+        });
+        Ok(nodes.collect())
+    }
+
+    fn band_node(&self, radius: f64, i: usize, steps: usize) -> Result<Node, MeanError> {
+        let (low, high) = (self.wavelength - self.bandwidth, self.wavelength + self.bandwidth);
+        let (slow, fast) = (1.0 / high, 1.0 / low);
+        let wavenumber = slow + (fast - slow) * (i as f64 + 0.5) / steps as f64;
+        let wavelength = 1.0 / wavenumber;
+        let place = 0.5 * PI * (wavelength - self.wavelength) / self.bandwidth;
+        // cos² by wavelength with the integral 1, dλ = λ² dν.
+        let width = (fast - slow) / steps as f64;
+        let weight = place.cos().powi(2) * wavelength * wavelength * width / self.bandwidth;
+        Ok(Node { radius, wavelength, index: self.medium.index(wavelength)?, weight })
+    }
+
+    /// The mean with the series cut behind an order, and its difference to half that order.
+    fn mean_behind(&self, theta: &[f64], cut: u32) -> Result<Mean, MeanError> {
+        let (from, to) = self.range();
+        let index = self.medium.index(self.wavelength)?;
+        let per_order = 2.0 * (index.re * index.re - 1.0).max(0.06).sqrt();
+        let longest = PATH_MARGIN * per_order * f64::from(cut) + WAYS_OUTSIDE;
+        let stretch = if self.sizes.has_steps() { 2.0 } else { 1.0 };
+        let steps = stretch * (to - from) * longest / TAU;
+        if steps > MAX_STEPS {
+            return Err(MeanError::TooLong { from, to, steps });
+        }
+        checked_term_count(to, index)?;
+        let steps = 2 * (0.5 * steps.max(64.0)).ceil() as usize;
+        let nodes = self.nodes(steps)?;
+        let twice = |node: &Node| Node { weight: 2.0 * node.weight, ..*node };
+        let half: Vec<Node> = nodes.iter().step_by(2).map(twice).collect();
+        let compared: Vec<f64> =
+            (0..COMPARED).map(|i| PI * i as f64 / (COMPARED - 1) as f64).collect();
+        let all: Vec<f64> = theta.iter().chain(&compared).copied().collect();
+        let mut mean = sum(&nodes, &all, cut)?;
+        let coarse = sum(&half, &compared, cut / 2)?;
+        let fine = mean.elements.split_off(theta.len());
+        mean.error = difference(&fine, &coarse.elements) / GAIN;
+        mean.spheres += coarse.spheres;
+        Ok(mean)
+    }
+}
+
+impl Mean {
+    fn scaled(mut self, factor: f64) -> Mean {
+        self.elements.iter_mut().flatten().for_each(|value| *value *= factor);
+        self.scattering *= factor;
+        self.absorption *= factor;
+        self.error *= factor;
+        self
+    }
+
+    fn plus(mut self, other: &Mean) -> Mean {
+        let pairs = self.elements.iter_mut().flatten().zip(other.elements.iter().flatten());
+        pairs.for_each(|(sum, value)| *sum += value);
+        let scattering = self.scattering + other.scattering;
+        self.asymmetry =
+            (self.asymmetry * self.scattering + other.asymmetry * other.scattering) / scattering;
+        self.scattering = scattering;
+        self.absorption += other.absorption;
+        self.error += other.error;
+        self.spheres += other.spheres;
+        self
+    }
+}
+
+/// Root mean square of the relative difference of S11.
+fn difference(fine: &[[f64; 4]], coarse: &[[f64; 4]]) -> f64 {
+    let squares = fine.iter().zip(coarse).map(|(a, b)| (b[0] / a[0] - 1.0).powi(2));
+    (squares.sum::<f64>() / fine.len() as f64).sqrt()
+}
+
+/// What a stretch of spheres adds up to.
+#[derive(Default)]
+struct Part {
+    elements: Vec<[f64; 4]>,
+    /// Behind the cut, in units of area.
+    behind: Products,
+    scattering: f64,
+    absorption: f64,
+    forward: f64,
+}
+
+/// Sum over all spheres with the series cut behind an order.
+fn sum(nodes: &[Node], theta: &[f64], cut: u32) -> Result<Mean, MeanError> {
+    let set = AngleSet::new(theta);
+    let length = nodes.len().div_ceil(PARTS);
+    // The last parts hold the largest spheres: they are to begin first.
+    let parts: Vec<Part> = (0..nodes.len().div_ceil(length))
+        .into_par_iter()
+        .rev()
+        .with_max_len(1)
+        .map(|k| part(nodes, k * length..((k + 1) * length).min(nodes.len()), &set, cut))
+        .collect::<Result<_, SeriesError>>()?;
+    let mut total = Part { elements: vec![[0.0; 4]; theta.len()], ..Part::default() };
+    for part in &parts {
+        let pairs = total.elements.iter_mut().flatten().zip(part.elements.iter().flatten());
+        pairs.for_each(|(sum, value)| *sum += value);
+        total.behind.add(&part.behind);
+        total.scattering += part.scattering;
+        total.absorption += part.absorption;
+        total.forward += part.forward;
+    }
+    let behind = total.behind.elements(theta);
+    for (sum, more) in total.elements.iter_mut().flatten().zip(behind.iter().flatten()) {
+        *sum += more;
+    }
+    let (scattered, forward) = total.behind.sums();
+    let scattering = total.scattering + TAU * scattered;
+    Ok(Mean {
+        elements: total.elements,
+        scattering,
+        absorption: total.absorption,
+        asymmetry: (total.forward + 2.0 * TAU * forward) / scattering,
+        error: 0.0,
+        spheres: nodes.len(),
+    })
+}
+
+/// The spheres of one stretch, and the way to the first one of the next.
+fn part(
+    nodes: &[Node],
+    range: std::ops::Range<usize>,
+    set: &AngleSet,
+    cut: u32,
+) -> Result<Part, SeriesError> {
+    let mut part = Part { elements: vec![[0.0; 4]; set.len()], ..Part::default() };
+    let mut before: Option<Waves> = None;
+    let last = (range.end + 1).min(nodes.len());
+    for (i, node) in nodes.iter().enumerate().take(last).skip(range.start) {
+        let (x, area) = (TAU * node.radius / node.wavelength, (node.wavelength / TAU).powi(2));
+        let Cut { a, b, electric, magnetic } = DebyeSeries::new(x, node.index)?.cut(cut);
+        let waves = Waves { electric, magnetic, weight: node.weight * area };
+        if let Some(before) = &before {
+            part.behind.add_stretch(before, &waves);
+        }
+        before = Some(waves);
+        if i == range.end {
+            break;
+        }
+        let scale = node.weight * area;
+        for (sum, (s1, s2)) in part.elements.iter_mut().zip(angular::amplitudes(&a, &b, set)) {
+            let (perpendicular, parallel, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
+            sum[0] += scale * 0.5 * (parallel + perpendicular);
+            sum[1] += scale * 0.5 * (parallel - perpendicular);
+            sum[2] += scale * cross.re;
+            sum[3] -= scale * cross.im;
+        }
+        let (scattered, forward) = sums(&a, &b);
+        part.scattering += scale * TAU * scattered;
+        part.forward += scale * 2.0 * TAU * forward;
+        if node.index.im > 0.0 {
+            let q = Sphere::new(x, node.index)?.efficiencies();
+            part.absorption += node.weight * q.q_abs * PI * node.radius * node.radius;
+        }
+    }
+    Ok(part)
+}

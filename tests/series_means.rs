@@ -1,0 +1,268 @@
+//! Means over sizes, bands and the sun's disc against brute force: plain sums over very many
+//! spheres, wavelengths or points of the disc, with no thought about resonances.
+
+use gonio::medium::{Medium, MediumSpec};
+use gonio::phase_table::{ForwardPeak, Quantity};
+use gonio::scene::SunDisc;
+use gonio::series::mean::Ensemble;
+use gonio::series::table::{Source, SphereJob, sphere_slab};
+use gonio::series::{angular::AngleSet, lorenz_mie::Sphere};
+use gonio::size_distribution::SizeDistribution;
+use num_complex::Complex64;
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+/// S11, S12, S33, S34 as areas per solid angle, then C_sca, C_abs, g C_sca.
+struct Brute {
+    elements: Vec<[f64; 4]>,
+    areas: [f64; 3],
+}
+
+/// One sphere's contribution.
+fn one(radius: f64, wavelength: f64, index: Complex64, set: &AngleSet) -> Brute {
+    let sphere = Sphere::new(TAU * radius / wavelength, index).unwrap();
+    let area = (wavelength / TAU).powi(2);
+    let elements = sphere
+        .amplitudes_at(set)
+        .iter()
+        .map(|(s1, s2)| {
+            let (one, two, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
+            [0.5 * (one + two), 0.5 * (two - one), cross.re, -cross.im].map(|e| e * area)
+        })
+        .collect();
+    let (q, shadow) = (sphere.efficiencies(), PI * radius * radius);
+    Brute { elements, areas: [q.q_sca, q.q_abs, q.q_sca * q.asymmetry].map(|e| e * shadow) }
+}
+
+/// Weighted sum over spheres `(radius, wavelength, index, weight)`.
+fn brute<F>(count: usize, set: &AngleSet, sphere: F) -> Brute
+where
+    F: Fn(usize) -> (f64, f64, Complex64, f64) + Sync,
+{
+    let zero = || Brute { elements: vec![[0.0; 4]; set.len()], areas: [0.0; 3] };
+    let add = |mut sum: Brute, other: Brute, weight: f64| {
+        let pairs = sum.elements.iter_mut().flatten().zip(other.elements.iter().flatten());
+        pairs.for_each(|(a, b)| *a += weight * b);
+        sum.areas.iter_mut().zip(other.areas).for_each(|(a, b)| *a += weight * b);
+        sum
+    };
+    (0..count)
+        .into_par_iter()
+        .fold(zero, |sum, i| {
+            let (radius, wavelength, index, weight) = sphere(i);
+            if weight == 0.0 { sum } else { add(sum, one(radius, wavelength, index, set), weight) }
+        })
+        .reduce(zero, |a, b| add(a, b, 1.0))
+}
+
+/// Relative errors of S11: root mean square and largest; then of the areas.
+fn compare(name: &str, ensemble: &Ensemble, theta: &[f64], truth: &Brute) -> [f64; 3] {
+    let mean = ensemble.mean(theta).unwrap();
+    let errors: Vec<f64> = mean
+        .elements
+        .iter()
+        .zip(&truth.elements)
+        .map(|(a, b)| {
+            // Every element by S11, which bounds it.
+            (0..4).map(|e| (a[e] - b[e]).abs() / b[0]).fold(0.0, f64::max)
+        })
+        .collect();
+    let rms = (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt();
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    let areas = [mean.scattering, mean.absorption, mean.scattering * mean.asymmetry];
+    let off = areas.iter().zip(truth.areas).map(|(a, b)| (a - b).abs() / truth.areas[0]);
+    let off = off.fold(0.0, f64::max);
+    println!(
+        "{name}: stated {:.1e}; rms {rms:.1e}, largest {largest:.1e}, areas {off:.1e}, {} spheres",
+        mean.error, mean.spheres
+    );
+    assert!(mean.error <= ensemble.tolerance, "{name}");
+    [rms, largest, off]
+}
+
+fn angles(count: usize) -> Vec<f64> {
+    (0..count).map(|i| PI * i as f64 / (count - 1) as f64).collect()
+}
+
+/// Steps of the brute force: few enough for every day, or enough to show 1e-4
+/// (`GONIO_SLOW_CHECKS=1`). Its own error falls as 1/steps.
+fn steps() -> usize {
+    if std::env::var_os("GONIO_SLOW_CHECKS").is_some() { 400_000 } else { 40_000 }
+}
+
+/// Mean of a distribution by equal steps over everything that counts.
+fn truth(sizes: SizeDistribution, index: Complex64, reach: (f64, f64), set: &AngleSet) -> Brute {
+    let count = steps();
+    let step = (reach.1 - reach.0) / count as f64;
+    brute(count, set, |i| {
+        let radius = reach.0 + (i as f64 + 0.5) * step;
+        (radius, 550e-9, index, sizes.density(radius) * step / sizes.number())
+    })
+}
+
+/// Few angles keep the brute force affordable; they hold the glory, the bow and the dark between.
+#[test]
+fn distributions_meet_brute_force() {
+    let theta = angles(46);
+    let set = AngleSet::new(&theta);
+    let (clear, dyed) = (Complex64::new(1.334, 0.0), Complex64::new(1.5, 2e-3));
+    let cases = [
+        (
+            "gamma, clear",
+            SizeDistribution::Gamma { effective_radius: 5e-6, effective_variance: 0.1 },
+            clear,
+            (0.0, 30e-6),
+        ),
+        (
+            "gamma, absorbing",
+            SizeDistribution::Gamma { effective_radius: 5e-6, effective_variance: 0.1 },
+            dyed,
+            (0.0, 30e-6),
+        ),
+        (
+            "log-normal",
+            SizeDistribution::LogNormal { median: 3e-6, spread: 0.3 },
+            clear,
+            (0.3e-6, 25e-6),
+        ),
+        (
+            "normal, one part in ten",
+            SizeDistribution::Normal { mean: 8e-6, deviation: 0.8e-6 },
+            clear,
+            (3e-6, 13e-6),
+        ),
+        (
+            "normal, one part in a hundred",
+            SizeDistribution::Normal { mean: 8e-6, deviation: 0.08e-6 },
+            clear,
+            (7.4e-6, 8.6e-6),
+        ),
+        (
+            "Marshall–Palmer, cut short",
+            SizeDistribution::MarshallPalmer { rain_rate: 1.0, from: 4e-6, to: 12e-6 },
+            clear,
+            (4e-6, 12e-6),
+        ),
+    ];
+    for (name, sizes, index, reach) in cases {
+        let truth = truth(sizes, index, reach, &set);
+        let medium = Medium::Constant(index);
+        for tolerance in [1e-2, 1e-3, 1e-4] {
+            let ensemble =
+                Ensemble { sizes, medium: &medium, wavelength: 550e-9, bandwidth: 0.0, tolerance };
+            let [rms, largest, areas] =
+                compare(&format!("{name} {tolerance:e}"), &ensemble, &theta, &truth);
+            // The brute force is itself good to about 1e-4 with 4e5 steps.
+            let own = 2e-4 * 4e5 / steps() as f64;
+            assert!(rms < tolerance + own, "{name}: {rms:e}");
+            assert!(largest < 6.0 * tolerance + own, "{name}: {largest:e}");
+            assert!(areas < tolerance + 1e-5, "{name}: {areas:e}");
+        }
+    }
+}
+
+/// The table of the two distributions "delta" and "none" is the same, bit for bit.
+#[test]
+fn one_size_is_one_sphere() {
+    let medium = Medium::Constant(Complex64::new(1.334, 1e-4));
+    let theta = angles(181);
+    let job = |bandwidth| SphereJob {
+        source: Source::LorenzMie,
+        sizes: SizeDistribution::Delta { radius: 5e-6 },
+        medium: &medium,
+        wavelength: 550e-9,
+        bandwidth,
+        sun_disc: SunDisc::None,
+        tolerance: 1e-3,
+    };
+    let slab = sphere_slab(&job(0.0), &theta, Quantity::PhaseFunction, ForwardPeak::Point).unwrap();
+    let single = one(5e-6, 550e-9, Complex64::new(1.334, 1e-4), &AngleSet::new(&theta));
+    for (value, row) in slab.values.iter().zip(&single.elements) {
+        let expected = row[0] / single.areas[0];
+        assert!((f64::from(*value) / expected - 1.0).abs() < 1e-6);
+    }
+    assert!((slab.scattering_cross_section / single.areas[0] - 1.0).abs() < 1e-12);
+}
+
+/// A band of 30 nm about 550 nm, water with its dispersion: cos² over very many wavelengths.
+#[test]
+fn bands_meet_brute_force() {
+    let water = MediumSpec::name("water").resolve(Path::new("")).unwrap();
+    let theta = angles(46);
+    let set = AngleSet::new(&theta);
+    let (centre, width, radius) = (550e-9, 30e-9, 20e-6);
+    let count = steps() / 2;
+    let truth = brute(count, &set, |i| {
+        let offset = width * (2.0 * (i as f64 + 0.5) / count as f64 - 1.0);
+        let weight = (0.5 * PI * offset / width).cos().powi(2) * 2.0 / count as f64;
+        (radius, centre + offset, water.index(centre + offset).unwrap(), weight)
+    });
+    for tolerance in [1e-2, 1e-3] {
+        let ensemble = Ensemble {
+            sizes: SizeDistribution::Delta { radius },
+            medium: &water,
+            wavelength: centre,
+            bandwidth: width,
+            tolerance,
+        };
+        let [rms, largest, areas] = compare("band of 30 nm", &ensemble, &theta, &truth);
+        assert!(rms < tolerance + 1e-3 && largest < 6.0 * tolerance, "{rms:e} {largest:e}");
+        assert!(areas < tolerance, "{areas:e}");
+    }
+}
+
+/// The sun's disc against points strewn over it, with and without its dark limb.
+#[test]
+fn sun_disc_meets_points_strewn_over_it() {
+    use gonio::color::{LimbDarkening, SUN_ANGULAR_RADIUS};
+    let medium = Medium::Constant(Complex64::new(1.334, 0.0));
+    let theta: Vec<f64> =
+        [0.0, 0.3, 5.0, 42.0, 138.0, 140.0, 179.7, 180.0].map(f64::to_radians).into();
+    let radius = 100e-6;
+    let sphere = Sphere::new(TAU * radius / 550e-9, Complex64::new(1.334, 0.0)).unwrap();
+    for disc in [SunDisc::Uniform, SunDisc::LimbDarkened] {
+        let job = SphereJob {
+            source: Source::LorenzMie,
+            sizes: SizeDistribution::Delta { radius },
+            medium: &medium,
+            wavelength: 550e-9,
+            bandwidth: 0.0,
+            sun_disc: disc,
+            tolerance: 1e-3,
+        };
+        let slab = sphere_slab(&job, &theta, Quantity::PhaseFunction, ForwardPeak::Point).unwrap();
+        let limb = LimbDarkening::at(550e-9);
+        let points = 50_000;
+        for (theta, value) in theta.iter().zip(&slab.values) {
+            // Sunflower: even over the disc.
+            let strewn: Vec<(f64, f64)> = (0..points)
+                .map(|i| {
+                    let square = (i as f64 + 0.5) / points as f64;
+                    let (rho, turn) =
+                        (SUN_ANGULAR_RADIUS * square.sqrt(), 2.399_963_229 * i as f64);
+                    let cosine = theta.cos() * rho.cos() - theta.sin() * rho.sin() * turn.cos();
+                    let light = match disc {
+                        SunDisc::LimbDarkened => limb.brightness((1.0 - square).sqrt()),
+                        _ => 1.0,
+                    };
+                    (cosine.clamp(-1.0, 1.0).acos(), light)
+                })
+                .collect();
+            let angles: Vec<f64> = strewn.iter().map(|s| s.0).collect();
+            let light: f64 = strewn.iter().map(|s| s.1).sum();
+            let amplitudes = sphere.amplitudes_parallel(&angles);
+            let sum: f64 = amplitudes
+                .iter()
+                .zip(&strewn)
+                .map(|((s1, s2), (_, light))| 0.5 * light * (s1.norm_sqr() + s2.norm_sqr()))
+                .sum();
+            let q = sphere.efficiencies();
+            let x = sphere.size_parameter();
+            let expected = sum / light / (PI * x * x * q.q_sca);
+            let error = (f64::from(*value) / expected - 1.0).abs();
+            println!("{disc:?} {:.1}°: {error:.1e}", theta.to_degrees());
+            assert!(error < 1e-3, "{disc:?} {theta}: {error:e}");
+        }
+    }
+}
