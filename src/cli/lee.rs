@@ -195,12 +195,13 @@ fn raindrops(args: &LeeArgs, request: &Request) -> anyhow::Result<Diagram> {
         file.light.wavelengths_nm = Some(Grid::List(vec![wavelength * 1e9]));
         Ok(file.validate()?)
     };
-    lee::diagram(request, |radius, wavelength, index: Complex64, theta: &[f64]| {
+    let directions =
+        |theta: &[f64]| -> Vec<(f64, f64)> { theta.iter().map(|&t| (t, azimuth)).collect() };
+    lee::diagram(request, &directions, |radius, wavelength, index: Complex64, directions| {
         let scene = scene_of(radius, wavelength)?;
         let plan = Plan::new(&scene)?;
-        let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, azimuth)).collect();
         let size = TAU * radius / wavelength;
-        let matrices = gonio::simulate::scatter(&plan, index, size, &directions);
+        let matrices = gonio::simulate::scatter(&plan, index, size, directions);
         Ok(matrices
             .iter()
             .map(|m| {
