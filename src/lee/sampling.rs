@@ -33,10 +33,10 @@ const NEAR_AXIS: f64 = 12.0 * PI / 180.0;
 const BEYOND_EDGE: f64 = 15.0;
 /// Number of wavelengths: for small drops; from which size parameter it falls, and with which
 /// power; and the least. Measured, see `validation/look.md`.
-const MOST: f64 = 1200.0;
-const FALLS_FROM: f64 = 500.0;
-const FALLS_AS: f64 = 1.1;
-const LEAST: f64 = 56.0;
+const MOST: f64 = 1000.0;
+const FALLS_FROM: f64 = 600.0;
+const FALLS_AS: f64 = 1.3;
+const LEAST: f64 = 60.0;
 /// Least number with a spread of sizes, which takes its sizes from the same samples.
 const LEAST_SPREAD: f64 = 240.0;
 /// Without the disc nothing damps the beats: path differences up to this many radii, this often.
@@ -92,15 +92,15 @@ impl Sampling {
         let width = (wavenumbers.1 - wavenumbers.0) / count as f64;
         let wavelengths: Vec<f64> =
             (0..count).map(|i| TAU / (wavenumbers.0 + (i as f64 + 0.5) * width)).collect();
-        let cutoff = cutoff(need);
         // Sizes reach this far above the nominal one.
         let largest = need.radius * (LARGEST_QUANTILE * need.size_spread).exp();
+        let highest = |wavelength: f64| 2.0 * (TAU / wavelength * largest + BEYOND_EDGE);
+        let cutoff = cutoff(need).min(highest(BAND.0));
         let bands = (0..count)
             .step_by(count.div_ceil(BANDS))
             .map(|from| {
                 let places = from..(from + count.div_ceil(BANDS)).min(count);
-                let edge = TAU / wavelengths[places.end - 1] * largest + BEYOND_EDGE;
-                let (highest, cutoff) = (2.0 * edge, cutoff.min(2.0 * edge));
+                let highest = highest(wavelengths[places.end - 1]);
                 Band { places, step: TAU / (highest + cutoff + TRANSITION) }
             })
             .collect();
