@@ -1,7 +1,7 @@
 //! The drops of a picture: tables read from files, or computed for the picture.
 
 use super::UsageError;
-use gonio::lee::{Sampling, SamplingNeed};
+use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
 use gonio::scene::{Choice, Grid, SceneFile, ShapeName};
@@ -107,6 +107,7 @@ fn sphere(kind: &DropKeys, radius: f64, polarised: bool) -> anyhow::Result<Phase
         radius,
         index: medium.index(550e-9)?.re,
         sun_disc: true,
+        beats: Beats::All,
         size_spread: 0.0,
         angles: (from, to),
         fineness: 1.0,

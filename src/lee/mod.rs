@@ -9,7 +9,7 @@
 mod sampling;
 mod sun_filter;
 
-pub use sampling::{Band, Sampling, SamplingNeed};
+pub use sampling::{Band, Beats, Sampling, SamplingNeed};
 pub use sun_filter::{Kernel, SunFilter};
 
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
@@ -79,7 +79,7 @@ pub enum Polarisation {
 /// # Errors
 /// [`LeeError`] for a medium without data in the visible, or angles and radii that make no sense.
 pub fn spheres(request: &Request) -> Result<Diagram, LeeError> {
-    diagram(request, &AngleSet::new, |radius, wavelength, index, angles| {
+    diagram(request, Beats::All, &AngleSet::new, |radius, wavelength, index, angles| {
         let sphere = Sphere::new(TAU * radius / wavelength, index)?;
         let amplitudes = sphere.amplitudes_at(angles);
         Ok(amplitudes.iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect())
@@ -93,7 +93,12 @@ pub fn spheres(request: &Request) -> Result<Diagram, LeeError> {
 ///
 /// # Errors
 /// Those of `scatter`, and as [`spheres`].
-pub fn diagram<A, E, P, F>(request: &Request, prepare: &P, scatter: F) -> Result<Diagram, E>
+pub fn diagram<A, E, P, F>(
+    request: &Request,
+    beats: Beats,
+    prepare: &P,
+    scatter: F,
+) -> Result<Diagram, E>
 where
     E: From<LeeError> + Send,
     P: Fn(&[f64]) -> A + Sync,
@@ -107,7 +112,7 @@ where
         .par_iter()
         .with_max_len(1)
         .map(|&i| {
-            let sampling = Sampling::new(&request.need(request.radii[i], index));
+            let sampling = Sampling::new(&request.need(request.radii[i], index, beats));
             Ok((i, column(request, request.radii[i], &sampling, prepare, &scatter)?))
         })
         .collect::<Result<Vec<_>, E>>()?;
@@ -194,11 +199,12 @@ impl Request {
         (self.theta[0], self.theta[self.theta.len() - 1])
     }
 
-    fn need(&self, radius: f64, index: f64) -> SamplingNeed {
+    fn need(&self, radius: f64, index: f64, beats: Beats) -> SamplingNeed {
         SamplingNeed {
             radius,
             index,
             sun_disc: self.sun_disc,
+            beats,
             size_spread: self.size_spread,
             angles: self.angles(),
             fineness: self.fineness,

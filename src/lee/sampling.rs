@@ -28,7 +28,7 @@ const CUTOFF: (f64, f64) = (500.0, 2500.0);
 /// Width over which the filter falls from 1 to 0; its kernel is then shorter than five disc radii.
 pub const TRANSITION: f64 = 1000.0;
 /// Closer to the axis than this, beats between opposite sides of the drop are slow in wavelength.
-const NEAR_AXIS: f64 = 12.0 * PI / 180.0;
+const NEAR_AXIS: f64 = 15.0 * PI / 180.0;
 /// Partial waves beyond n = x that still count, in angular frequency.
 const BEYOND_EDGE: f64 = 15.0;
 /// Number of wavelengths: for small drops; from which size parameter it falls, and with which
@@ -37,6 +37,11 @@ const MOST: f64 = 1000.0;
 const FALLS_FROM: f64 = 600.0;
 const FALLS_AS: f64 = 1.3;
 const LEAST: f64 = 60.0;
+/// The same of waves without beats between orders: a few beats of the supernumerary bows remain.
+const MOST_APART: f64 = 64.0;
+const LEAST_APART: f64 = 40.0;
+/// Two rays of one order stand this far apart at the most, between 15° and 165°.
+const WITHIN_ORDER: f64 = 0.8;
 /// Least number with a spread of sizes, which takes its sizes from the same samples.
 const LEAST_SPREAD: f64 = 240.0;
 /// Without the disc nothing damps the beats: path differences up to this many radii, this often.
@@ -47,6 +52,16 @@ const BANDS: usize = 8;
 /// The golden ratio's fraction.
 pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// Which waves beat with each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beats {
+    /// All: the exact series.
+    All,
+    /// Rays of one order only; the orders' intensities are added. What is lost are beats with path
+    /// differences of several radii, which colours of the smallest drops already average out.
+    WithinOrders,
+}
+
 /// What decides how a column is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplingNeed {
@@ -56,6 +71,7 @@ pub struct SamplingNeed {
     pub index: f64,
     /// Averaged over the sun's disc.
     pub sun_disc: bool,
+    pub beats: Beats,
     /// Standard deviation of ln(radius).
     pub size_spread: f64,
     /// First and last scattering angle, radians.
@@ -88,13 +104,18 @@ impl Sampling {
     pub fn new(need: &SamplingNeed) -> Self {
         let wavenumbers = (TAU / BAND.1, TAU / BAND.0);
         let range = (wavenumbers.1 - wavenumbers.0) * need.radius;
-        let count = off_resonance(number(need, range), range, need.index);
+        let wanted = number(need, range);
+        let count = match need.beats {
+            Beats::All => off_resonance(wanted, range, need.index),
+            Beats::WithinOrders => wanted.ceil() as usize,
+        };
         let width = (wavenumbers.1 - wavenumbers.0) / count as f64;
         let wavelengths: Vec<f64> =
             (0..count).map(|i| TAU / (wavenumbers.0 + (i as f64 + 0.5) * width)).collect();
         // Sizes reach this far above the nominal one.
         let largest = need.radius * (LARGEST_QUANTILE * need.size_spread).exp();
-        let highest = |wavelength: f64| 2.0 * (TAU / wavelength * largest + BEYOND_EDGE);
+        let share = if need.beats == Beats::All || near_axis(need) { 2.0 } else { WITHIN_ORDER };
+        let highest = |wavelength: f64| share * (TAU / wavelength * largest + BEYOND_EDGE);
         let cutoff = cutoff(need).min(highest(BAND.0));
         let bands = (0..count)
             .step_by(count.div_ceil(BANDS))
@@ -119,9 +140,16 @@ const LARGEST_QUANTILE: f64 = 3.72;
 /// Number of wavelengths before resonances are considered; `range` is that of the size parameter.
 fn number(need: &SamplingNeed, range: f64) -> f64 {
     let middle = TAU * need.radius / 550e-9;
-    let falling = MOST * (middle / FALLS_FROM).max(1.0).powf(-FALLS_AS);
-    let least = if need.size_spread > 0.0 { LEAST_SPREAD } else { LEAST };
-    let with_disc = falling.max(least);
+    let falls = (middle / FALLS_FROM).max(1.0).powf(-FALLS_AS);
+    let (most, least) = match need.beats {
+        Beats::All if need.size_spread > 0.0 => (MOST, LEAST_SPREAD),
+        Beats::All => (MOST, LEAST),
+        Beats::WithinOrders => (MOST_APART, LEAST_APART),
+    };
+    let with_disc = (most * falls).max(least);
+    if need.beats == Beats::WithinOrders {
+        return need.fineness * with_disc;
+    }
     let without = (PER_BEAT * range * LONGEST_PATH / TAU).max(with_disc);
     need.fineness * if need.sun_disc { with_disc } else { without }
 }
@@ -152,9 +180,12 @@ fn off_resonance(wanted: f64, range: f64, index: f64) -> usize {
 /// Cut-off of the filter in angular frequency.
 fn cutoff(need: &SamplingNeed) -> f64 {
     let size_parameter = TAU * need.radius / 550e-9;
-    let near_axis = need.angles.0 < NEAR_AXIS || need.angles.1 > PI - NEAR_AXIS;
-    let share = if near_axis { 2.0 } else { CUTOFF_SHARE };
+    let share = if near_axis(need) { 2.0 } else { CUTOFF_SHARE };
     need.fineness * (share * size_parameter).clamp(CUTOFF.0, CUTOFF.1)
+}
+
+fn near_axis(need: &SamplingNeed) -> bool {
+    need.angles.0 < NEAR_AXIS || need.angles.1 > PI - NEAR_AXIS
 }
 
 /// Angles that one band needs: an even grid over the asked ones and the filter's reach beyond.
