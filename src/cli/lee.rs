@@ -184,7 +184,8 @@ fn angles(text: &str) -> anyhow::Result<Vec<f64>> {
 }
 
 /// Raindrops: the ray engine in one half-plane of azimuth. The orders' intensities are added:
-/// beats between them are too fast for the sun's disc and for colours.
+/// beats between them are too fast for the sun's disc and for colours. The smallest drops are
+/// spheres, for which Lorenz–Mie is exact.
 fn raindrops(args: &LeeArgs, request: &Request) -> anyhow::Result<Diagram> {
     let azimuth = args.azimuth_deg.to_radians();
     let plan_of = |radius: f64, order: u32| -> anyhow::Result<Plan> {
@@ -209,9 +210,24 @@ fn raindrops(args: &LeeArgs, request: &Request) -> anyhow::Result<Diagram> {
                 sum[1] += 0.5 * (m.s1.norm_sqr() + m.s4.norm_sqr());
             }
         }
-        Ok(sum)
+        anyhow::Ok(sum)
     };
-    lee::diagram(request, Beats::WithinOrders, &directions, scatter)
+    let mut round = request.clone();
+    let mut flat = request.clone();
+    (round.radii, flat.radii) = (Vec::new(), Vec::new());
+    for &radius in &request.radii {
+        let sphere = plan_of(radius, ORDERS[0])?.shape.is_sphere();
+        if sphere { &mut round } else { &mut flat }.radii.push(radius);
+    }
+    let mut xyz: Vec<Vec<[[f64; 3]; 2]>> = Vec::new();
+    if !round.radii.is_empty() {
+        xyz = lee::spheres(&round).map_err(wrong_input)?.xyz;
+    }
+    if !flat.radii.is_empty() {
+        xyz.extend(lee::diagram(&flat, Beats::WithinOrders, &directions, scatter)?.xyz);
+    }
+    // Radii ascend, and small drops are the round ones.
+    Ok(Diagram { radii: request.radii.clone(), theta: request.theta.clone(), xyz })
 }
 
 /// External reflection, transmission, primary and secondary bow.
@@ -227,7 +243,8 @@ fn draw(
     let shape = match args.shape {
         LeeShape::Sphere => "spheres, Lorenz–Mie".to_string(),
         LeeShape::Raindrop => format!(
-            "raindrops, rays; sun at {}°, azimuth {}°",
+            "raindrops: rays, orders 0 to 3; small ones are spheres: Lorenz–Mie; sun at {}°, azimuth \
+             {}°",
             args.sun_elevation_deg, args.azimuth_deg
         ),
     };
