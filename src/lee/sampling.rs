@@ -33,8 +33,8 @@ const NEAR_AXIS: f64 = 15.0 * PI / 180.0;
 const BEYOND_EDGE: f64 = 15.0;
 /// Number of wavelengths: for small drops; from which size parameter it falls, and with which
 /// power; and the least. Measured, see `validation/look.md`.
-const MOST: f64 = 1000.0;
-const FALLS_FROM: f64 = 600.0;
+const MOST: f64 = 1200.0;
+const FALLS_FROM: f64 = 520.0;
 const FALLS_AS: f64 = 1.3;
 const LEAST: f64 = 60.0;
 /// The same of waves without beats between orders: a few beats of the supernumerary bows remain.
