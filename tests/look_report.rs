@@ -15,7 +15,7 @@ fn case() -> Case {
     Case {
         name: "two spheres </script>".into(),
         reference: entry("0.1 mm", 1e-4),
-        tests: vec![entry("the same", 1e-4), entry("0.11 mm", 1.1e-4)],
+        tests: vec![entry("the same", 1e-4), entry("0.2 mm", 2e-4)],
     }
 }
 
@@ -27,12 +27,13 @@ fn a_table_agrees_with_itself_and_not_with_another() {
     }
     assert!(report.tests[0].maxima.iter().all(|m| m.shift_deg == 0.0));
     assert!(!report.tests[0].maxima.is_empty());
-    // A larger drop draws its primary bow in towards the angle of ray optics: by 0.056° after Airy.
-    // Known defect: the maximum found locks on to the fine ripple (0.16° from crest to crest)
-    // that rides on the bow, so that only the size of the shift is bounded, not its sign.
+    // A larger drop draws its primary bow in towards the angle of ray optics, here by 0.24° (miepython
+    // 3 on the same index and angles, smoothed alike; Airy's theory says 0.33°, but single
+    // wavelengths of single drops lie up to 0.1° off it).
     let bow = |m: &&gonio::compare::Maximum| (138.0..140.0).contains(&m.reference_deg);
     let moved = report.tests[1].maxima.iter().find(bow).unwrap();
-    assert!(moved.shift_deg != 0.0 && moved.shift_deg.abs() < 0.2, "{moved:?}");
+    assert!((moved.reference_deg - 138.98).abs() < 0.02, "{moved:?}");
+    assert!((moved.shift_deg + 0.24).abs() < 0.03, "{moved:?}");
     assert_eq!(worst(&[report]), 0.0);
 }
 

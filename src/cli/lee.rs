@@ -4,11 +4,11 @@ use super::UsageError;
 use clap::{Args, ValueEnum};
 use gonio::color::to_srgb;
 use gonio::hdf5::{DiagramAxis, DiagramValues, write_diagram};
-use gonio::lee::{self, Diagram, LeeError, Polarisation, Request, column_exposures};
+use gonio::lee::{self, Beats, Diagram, LeeError, Polarisation, Request, column_exposures};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::plan::Plan;
 use gonio::render::ColorDiagram;
-use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
+use gonio::scene::{Choice, Grid, Orders, Scene, SceneFile, ShapeName};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -183,33 +183,55 @@ fn angles(text: &str) -> anyhow::Result<Vec<f64>> {
     Ok((0..=count as usize).map(|i| (from + step * i as f64).to_radians()).collect())
 }
 
-/// Raindrops: the ray engine in one half-plane of azimuth.
+/// Raindrops: the ray engine in one half-plane of azimuth. The orders' intensities are added:
+/// beats between them are too fast for the sun's disc and for colours. The smallest drops are
+/// spheres, for which Lorenz–Mie is exact.
 fn raindrops(args: &LeeArgs, request: &Request) -> anyhow::Result<Diagram> {
     let azimuth = args.azimuth_deg.to_radians();
-    let scene_of = |radius: f64, wavelength: f64| -> anyhow::Result<Scene> {
+    let plan_of = |radius: f64, order: u32| -> anyhow::Result<Plan> {
         let mut file = SceneFile::default();
         file.particle.shape = Some(Choice(ShapeName::Raindrop));
         file.particle.radius_mm = Some(radius * 1e3);
         file.particle.medium = Some(MediumSpec::name(args.medium.as_str()));
         file.light.sun_elevation_deg = Some(args.sun_elevation_deg);
-        file.light.wavelengths_nm = Some(Grid::List(vec![wavelength * 1e9]));
-        Ok(file.validate()?)
+        file.light.wavelengths_nm = Some(Grid::List(vec![550.0]));
+        let scene = Scene { orders: Orders::List(vec![order]), ..file.validate()? };
+        Ok(Plan::new(&scene)?)
     };
-    lee::diagram(request, |radius, wavelength, index: Complex64, theta: &[f64]| {
-        let scene = scene_of(radius, wavelength)?;
-        let plan = Plan::new(&scene)?;
-        let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, azimuth)).collect();
-        let size = TAU * radius / wavelength;
-        let matrices = gonio::simulate::scatter(&plan, index, size, &directions);
-        Ok(matrices
-            .iter()
-            .map(|m| {
-                let parallel = m.s2.norm_sqr() + m.s3.norm_sqr();
-                [0.5 * parallel, 0.5 * (m.s1.norm_sqr() + m.s4.norm_sqr())]
-            })
-            .collect())
-    })
+    let directions =
+        |theta: &[f64]| -> Vec<(f64, f64)> { theta.iter().map(|&t| (t, azimuth)).collect() };
+    let scatter = |radius: f64, wavelength: f64, index: Complex64, at: &Vec<(f64, f64)>| {
+        let mut sum = vec![[0.0; 2]; at.len()];
+        for order in ORDERS {
+            let plan = plan_of(radius, order)?;
+            let matrices = gonio::simulate::scatter(&plan, index, TAU * radius / wavelength, at);
+            for (sum, m) in sum.iter_mut().zip(&matrices) {
+                sum[0] += 0.5 * (m.s2.norm_sqr() + m.s3.norm_sqr());
+                sum[1] += 0.5 * (m.s1.norm_sqr() + m.s4.norm_sqr());
+            }
+        }
+        anyhow::Ok(sum)
+    };
+    let mut round = request.clone();
+    let mut flat = request.clone();
+    (round.radii, flat.radii) = (Vec::new(), Vec::new());
+    for &radius in &request.radii {
+        let sphere = plan_of(radius, ORDERS[0])?.shape.is_sphere();
+        if sphere { &mut round } else { &mut flat }.radii.push(radius);
+    }
+    let mut xyz: Vec<Vec<[[f64; 3]; 2]>> = Vec::new();
+    if !round.radii.is_empty() {
+        xyz = lee::spheres(&round).map_err(wrong_input)?.xyz;
+    }
+    if !flat.radii.is_empty() {
+        xyz.extend(lee::diagram(&flat, Beats::WithinOrders, &directions, scatter)?.xyz);
+    }
+    // Radii ascend, and small drops are the round ones.
+    Ok(Diagram { radii: request.radii.clone(), theta: request.theta.clone(), xyz })
 }
+
+/// External reflection, transmission, primary and secondary bow.
+const ORDERS: [u32; 4] = [0, 1, 2, 3];
 
 fn draw(
     args: &LeeArgs,
@@ -221,7 +243,8 @@ fn draw(
     let shape = match args.shape {
         LeeShape::Sphere => "spheres, Lorenz–Mie".to_string(),
         LeeShape::Raindrop => format!(
-            "raindrops, rays; sun at {}°, azimuth {}°",
+            "raindrops: rays, orders 0 to 3; small ones are spheres: Lorenz–Mie; sun at {}°, azimuth \
+             {}°",
             args.sun_elevation_deg, args.azimuth_deg
         ),
     };

@@ -134,6 +134,9 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
 
     let polarised = scene.filter.polariser_deg.is_some();
     let asked = scene.sun.elevation_deg;
+    // What the scene says wrong is told before drops are computed.
+    sky(&scene, asked.unwrap_or(20.0).to_radians())?;
+    camera(&scene, asked.unwrap_or(20.0).to_radians())?;
     let tables = tables(&scene.drops, drop_folder, asked.unwrap_or(20.0), polarised)?;
     let elevation = asked.map(f64::to_radians).unwrap_or_else(|| {
         tables

@@ -1,7 +1,7 @@
 //! The drops of a picture: tables read from files, or computed for the picture.
 
 use super::UsageError;
-use gonio::lee::Sampling;
+use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
 use gonio::scene::{Choice, Grid, SceneFile, ShapeName};
@@ -102,9 +102,17 @@ fn sizes(radius: f64, spread: f64) -> Vec<(f64, f64)> {
 fn sphere(kind: &DropKeys, radius: f64, polarised: bool) -> anyhow::Result<PhaseTable> {
     let medium =
         MediumSpec::name(kind.medium.as_deref().unwrap_or("water")).resolve(Path::new("."))?;
-    let sampling = Sampling::new(radius, true, 0.0, 1.0);
-    let step = sampling.steps.iter().copied().fold(f64::INFINITY, f64::min).max(2e-4);
     let (from, to) = (FROM.to_radians(), PI);
+    let sampling = Sampling::new(&SamplingNeed {
+        radius,
+        index: medium.index(550e-9)?.re,
+        sun_disc: true,
+        beats: Beats::All,
+        size_spread: 0.0,
+        angles: (from, to),
+        fineness: 1.0,
+    });
+    let step = sampling.bands.iter().map(|b| b.step).fold(f64::INFINITY, f64::min).max(2e-4);
     let count = ((to - from) / step).ceil() as usize;
     let theta: Vec<f64> =
         (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();

@@ -66,7 +66,7 @@ pub struct BandReport {
     pub l2: f64,
 }
 
-/// A maximum of the reference and the nearest one of the test (both smoothed by 0.2°).
+/// A maximum of the reference and the nearest one of the test (both without their fine ripple).
 #[derive(Clone, Debug, Serialize)]
 pub struct Maximum {
     pub reference_deg: f64,
@@ -172,7 +172,7 @@ pub fn measure(case: &Case) -> Result<CaseReport, CompareError> {
             name: test.name.clone(),
             seconds: test.seconds,
             bands,
-            maxima: maxima(&curve, &reference),
+            maxima: maxima(&curve, &reference, ripple(&test.table, &case.reference.table)),
         });
     }
     Ok(CaseReport {
@@ -220,10 +220,23 @@ fn bands(curve: &Curve, reference: &Curve) -> Vec<BandReport> {
     reports
 }
 
-/// Angles of the bow's maxima, 120° to 150°.
-fn maxima(curve: &Curve, reference: &Curve) -> Vec<Maximum> {
-    let found = peaks(curve);
-    peaks(reference)
+/// Period in degrees of the fine ripple on the bows at the middle wavelength, of whichever drop has
+/// the longer one: external reflection meets the bow's rays from the other side of the drop, about
+/// `1.2 r` away, so that crests are `360° / (1.2 x)` apart.
+fn ripple(test: &PhaseTable, reference: &PhaseTable) -> f64 {
+    let period = |table: &PhaseTable| {
+        let wavelengths = &table.header.axes.wavelength;
+        let wavelength = wavelengths.get(wavelengths.len() / 2).copied().unwrap_or(f64::NAN);
+        let size_parameter = std::f64::consts::TAU * table.header.radius / wavelength;
+        360.0 / (1.2 * size_parameter)
+    };
+    period(test).max(period(reference))
+}
+
+/// Angles of the bow's maxima, 120° to 150°, once a ripple of that period (degrees) is taken away.
+fn maxima(curve: &Curve, reference: &Curve, ripple: f64) -> Vec<Maximum> {
+    let found = peaks(curve, ripple);
+    peaks(reference, ripple)
         .into_iter()
         .filter_map(|reference_deg| {
             let nearest = found
@@ -235,26 +248,12 @@ fn maxima(curve: &Curve, reference: &Curve) -> Vec<Maximum> {
 }
 
 /// Maxima of the smoothed curve, refined by a parabola, that rise above their surroundings.
-fn peaks(curve: &Curve) -> Vec<f64> {
-    const WIDTH: f64 = 0.2;
+fn peaks(curve: &Curve, ripple: f64) -> Vec<f64> {
+    // A Gaussian of 0.6 periods leaves exp(-½ (2π 0.6)²) = 1e-3 of the ripple.
+    let width = if ripple.is_finite() { 0.6 * ripple } else { 0.2 };
     let Some((_, values)) = curve.intensity.first() else { return Vec::new() };
     let theta: Vec<f64> = (0..=1500).map(|i| 120.0 + 0.02 * f64::from(i)).collect();
-    let smooth: Vec<f64> = theta
-        .iter()
-        .map(|&centre| {
-            let from = curve.theta.partition_point(|&t| t < centre - 3.0 * WIDTH);
-            let (mut sum, mut norm) = (0.0, 0.0);
-            for (t, v) in curve.theta[from..].iter().zip(&values[from..]) {
-                if *t > centre + 3.0 * WIDTH {
-                    break;
-                }
-                let weight = (-0.5 * ((t - centre) / WIDTH).powi(2)).exp();
-                sum += weight * v;
-                norm += weight;
-            }
-            if norm > 0.0 { sum / norm } else { 0.0 }
-        })
-        .collect();
+    let smooth: Vec<f64> = theta.iter().map(|&t| smoothed(curve, values, t, width)).collect();
     let highest = smooth.iter().copied().fold(0.0, f64::max);
     let mut out = Vec::new();
     for i in 1..smooth.len() - 1 {
@@ -269,6 +268,19 @@ fn peaks(curve: &Curve) -> Vec<f64> {
         }
     }
     out
+}
+
+/// Mean of a curve about an angle, weighted by a Gaussian (degrees).
+fn smoothed(curve: &Curve, values: &[f64], centre: f64, width: f64) -> f64 {
+    let from = curve.theta.partition_point(|&t| t < centre - 3.0 * width);
+    let to = curve.theta.partition_point(|&t| t <= centre + 3.0 * width);
+    let (mut sum, mut norm) = (0.0, 0.0);
+    for (t, v) in curve.theta[from..to].iter().zip(&values[from..to]) {
+        let weight = (-0.5 * ((t - centre) / width).powi(2)).exp();
+        sum += weight * v;
+        norm += weight;
+    }
+    if norm > 0.0 { sum / norm } else { 0.0 }
 }
 
 /// The largest `l2` of unpolarised light between `from` and `to` degrees over all cases' first

@@ -16,7 +16,8 @@
 //! S1 ± S2 at θ:      Σ (2n+1)(a_n+b_n) U_n        and  Σ (2n+1)(a_n-b_n) V_n
 //! S1 ± S2 at π - θ:  Σ (-1)^{n+1} (2n+1)(a_n+b_n) V_n  and  Σ (-1)^{n+1} (2n+1)(a_n-b_n) U_n
 //! ```
-//! so that one recurrence and four complex sums serve θ and π - θ together.
+//! so that one recurrence and four complex sums serve θ and π - θ together. Where all angles lie on
+//! one side of π/2, the other side's two sums are left out.
 //!
 //! Angles run in SIMD lanes, a block of lanes is carried over a chunk of orders whose
 //! coefficients stay in the first-level cache, and its state is kept between chunks.
@@ -43,6 +44,17 @@ pub struct AngleSet {
     t: Vec<f64>,
     /// For every asked angle: its place among the folded ones, and whether it lies beyond π/2.
     place: Vec<(usize, bool)>,
+    sides: Sides,
+}
+
+/// Where the asked angles lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sides {
+    /// All up to π/2.
+    Forward,
+    /// All beyond π/2.
+    Backward,
+    Both,
 }
 
 impl AngleSet {
@@ -64,7 +76,13 @@ impl AngleSet {
             place[i] = (t.len() - 1, theta[i] > FRAC_PI_2);
         }
         t.resize(t.len().next_multiple_of(LANES), 0.0);
-        Self { t, place }
+        let beyond = place.iter().filter(|(_, beyond)| *beyond).count();
+        let sides = match beyond {
+            0 => Sides::Forward,
+            n if n == place.len() => Sides::Backward,
+            _ => Sides::Both,
+        };
+        Self { t, place, sides }
     }
 
     /// Number of angles asked for.
@@ -140,25 +158,37 @@ impl Block {
     "x86_64+avx2+fma",
     "aarch64+neon"
 ))]
-fn advance(blocks: &mut [Block], records: &[OrderRecord]) {
+fn advance(blocks: &mut [Block], records: &[OrderRecord], sides: Sides) {
     if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-        advance_blocks::<true>(blocks, records);
+        advance_sides::<true>(blocks, records, sides);
     } else {
-        advance_blocks::<false>(blocks, records);
+        advance_sides::<false>(blocks, records, sides);
     }
 }
 
 #[inline(always)]
-fn advance_blocks<const FMA: bool>(blocks: &mut [Block], records: &[OrderRecord]) {
+fn advance_sides<const FMA: bool>(blocks: &mut [Block], records: &[OrderRecord], sides: Sides) {
+    match sides {
+        Sides::Forward => advance_blocks::<FMA, true, false>(blocks, records),
+        Sides::Backward => advance_blocks::<FMA, false, true>(blocks, records),
+        Sides::Both => advance_blocks::<FMA, true, true>(blocks, records),
+    }
+}
+
+#[inline(always)]
+fn advance_blocks<const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
+    blocks: &mut [Block],
+    records: &[OrderRecord],
+) {
     for block in blocks {
         let mut state = *block;
         let mut pairs = records.chunks_exact(2);
         for pair in &mut pairs {
-            step::<FMA>(&mut state, &pair[0], 1.0);
-            step::<FMA>(&mut state, &pair[1], -1.0);
+            step::<FMA, FORWARD, BACKWARD>(&mut state, &pair[0], 1.0);
+            step::<FMA, FORWARD, BACKWARD>(&mut state, &pair[1], -1.0);
         }
         for record in pairs.remainder() {
-            step::<FMA>(&mut state, record, 1.0);
+            step::<FMA, FORWARD, BACKWARD>(&mut state, record, 1.0);
         }
         *block = state;
     }
@@ -172,7 +202,11 @@ fn multiply_add<const FMA: bool>(a: f64, b: f64, c: f64) -> f64 {
 
 /// Add one order and move the recurrence to the next; `parity` is (-1)^{n+1}.
 #[inline(always)]
-fn step<const FMA: bool>(state: &mut Block, order: &OrderRecord, parity: f64) {
+fn step<const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
+    state: &mut Block,
+    order: &OrderRecord,
+    parity: f64,
+) {
     let mirrored = [order.sum[0], order.sum[1], order.difference[0], order.difference[1]]
         .map(|coefficient| parity * coefficient);
     for l in 0..LANES {
@@ -181,14 +215,18 @@ fn step<const FMA: bool>(state: &mut Block, order: &OrderRecord, parity: f64) {
         let scaled = t * pi;
         let u = fma(-scaled, order.inverse_next, state.d[l]);
         let v = fma(pi, order.double_inverse, -u);
-        state.sums[0][l] = fma(order.sum[0], u, state.sums[0][l]);
-        state.sums[1][l] = fma(order.sum[1], u, state.sums[1][l]);
-        state.sums[2][l] = fma(order.difference[0], v, state.sums[2][l]);
-        state.sums[3][l] = fma(order.difference[1], v, state.sums[3][l]);
-        state.sums[4][l] = fma(mirrored[0], v, state.sums[4][l]);
-        state.sums[5][l] = fma(mirrored[1], v, state.sums[5][l]);
-        state.sums[6][l] = fma(mirrored[2], u, state.sums[6][l]);
-        state.sums[7][l] = fma(mirrored[3], u, state.sums[7][l]);
+        if FORWARD {
+            state.sums[0][l] = fma(order.sum[0], u, state.sums[0][l]);
+            state.sums[1][l] = fma(order.sum[1], u, state.sums[1][l]);
+            state.sums[2][l] = fma(order.difference[0], v, state.sums[2][l]);
+            state.sums[3][l] = fma(order.difference[1], v, state.sums[3][l]);
+        }
+        if BACKWARD {
+            state.sums[4][l] = fma(mirrored[0], v, state.sums[4][l]);
+            state.sums[5][l] = fma(mirrored[1], v, state.sums[5][l]);
+            state.sums[6][l] = fma(mirrored[2], u, state.sums[6][l]);
+            state.sums[7][l] = fma(mirrored[3], u, state.sums[7][l]);
+        }
         let d = fma(-scaled, order.weight, state.d[l]);
         state.d[l] = d;
         state.pi[l] = fma(order.next, d, pi);
@@ -196,18 +234,18 @@ fn step<const FMA: bool>(state: &mut Block, order: &OrderRecord, parity: f64) {
 }
 
 /// Run all orders over some blocks.
-fn run(blocks: &mut [Block], a: &[Complex64], b: &[Complex64]) {
+fn run(blocks: &mut [Block], a: &[Complex64], b: &[Complex64], sides: Sides) {
     let mut records = Vec::with_capacity(CHUNK);
     for (chunk, (a, b)) in a.chunks(CHUNK).zip(b.chunks(CHUNK)).enumerate() {
         fill_records(chunk * CHUNK, a, b, &mut records);
-        advance(blocks, &records);
+        advance(blocks, &records, sides);
     }
 }
 
 /// S1 and S2 at every angle from partial-wave coefficients (`a[0]` is n = 1), on this thread.
 pub fn amplitudes(a: &[Complex64], b: &[Complex64], set: &AngleSet) -> Vec<(Complex64, Complex64)> {
     let mut blocks: Vec<Block> = set.t.chunks_exact(LANES).map(Block::new).collect();
-    run(&mut blocks, a, b);
+    run(&mut blocks, a, b, set.sides);
     collect(&blocks, set)
 }
 
@@ -219,7 +257,7 @@ pub fn amplitudes_parallel(
 ) -> Vec<(Complex64, Complex64)> {
     let mut blocks: Vec<Block> = set.t.chunks_exact(LANES).map(Block::new).collect();
     let share = blocks.len().div_ceil(4 * rayon::current_num_threads()).max(1);
-    blocks.par_chunks_mut(share).for_each(|part| run(part, a, b));
+    blocks.par_chunks_mut(share).for_each(|part| run(part, a, b, set.sides));
     collect(&blocks, set)
 }
 
@@ -262,6 +300,23 @@ mod tests {
     fn symmetric_angles_share_one_recurrence() {
         let theta: Vec<f64> = (0..=1800).map(|k| (f64::from(k) * 0.1).to_radians()).collect();
         assert_eq!(AngleSet::new(&theta).t.len(), 901usize.next_multiple_of(LANES));
+    }
+
+    /// Sums over one side alone are those of both sides together, to the last bit.
+    #[test]
+    fn one_side_alone_is_the_same() {
+        let a: Vec<_> = (0..300).map(|n| Complex64::cis(f64::from(n * n) * 0.01)).collect();
+        let b: Vec<_> = a.iter().rev().copied().collect();
+        for (from, stranger, sides) in [(2, 151, Sides::Forward), (101, 30, Sides::Backward)] {
+            let one: Vec<f64> = (from..from + 70).map(|k| f64::from(k).to_radians()).collect();
+            let mut both = one.clone();
+            both.push(f64::from(stranger).to_radians() + 0.001);
+            let (one, both) = (AngleSet::new(&one), AngleSet::new(&both));
+            assert_eq!((one.sides, both.sides), (sides, Sides::Both));
+            let mut mixed = amplitudes(&a, &b, &both);
+            mixed.pop();
+            assert_eq!(amplitudes(&a, &b, &one), mixed);
+        }
     }
 
     #[test]

@@ -1,0 +1,289 @@
+//! Lee diagrams: the colour of scattered sunlight over scattering angle × drop radius (Lee 1998,
+//! Appl. Opt. 37, 1506).
+//!
+//! Every column is one radius: intensity by wavelength, averaged over the sun's disc, turned into
+//! XYZ. Interference between rays that took different ways through the drop leaves a ripple far
+//! finer than the disc and the eye; it must average out and not be sampled. [`Sampling`] says how
+//! many angles and wavelengths that takes, [`SunFilter`] averages.
+
+mod sampling;
+mod sun_filter;
+
+pub use sampling::{Band, Beats, Sampling, SamplingNeed};
+pub use sun_filter::{Kernel, SunFilter};
+
+use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
+use crate::medium::{Medium, MediumError};
+use crate::series::SeriesError;
+use crate::series::angular::AngleSet;
+use crate::series::lorenz_mie::Sphere;
+use num_complex::Complex64;
+use rayon::prelude::*;
+use sampling::{AXIS_MARGIN, GOLDEN, TRANSITION, grid};
+use std::f64::consts::{PI, TAU};
+
+/// Why a diagram cannot be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum LeeError {
+    #[error(transparent)]
+    Color(#[from] ColorError),
+    #[error(transparent)]
+    Medium(#[from] MediumError),
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    #[error("{field} = {value}: {accepted}")]
+    Invalid { field: &'static str, value: String, accepted: &'static str },
+}
+
+/// Intensities of one drop in directions: outgoing light polarised parallel and perpendicular to
+/// the scattering plane, `½(|S2|²+|S3|²)` and `½(|S1|²+|S4|²)`, for unpolarised incident light.
+pub type Intensity = [f64; 2];
+
+/// What is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Radii of equal volume, metres.
+    pub radii: Vec<f64>,
+    /// Scattering angles, radians, ascending.
+    pub theta: Vec<f64>,
+    pub medium: Medium,
+    /// Average over the sun's disc.
+    pub sun_disc: bool,
+    /// Standard deviation of ln(radius) about each column's radius; 0 for drops of one size.
+    pub size_spread: f64,
+    pub illuminant: Illuminant,
+    pub observer: Observer,
+    /// Factor on the numbers of angles and wavelengths; 1 is meant for ΔE below 1.
+    pub fineness: f64,
+}
+
+/// The diagram: XYZ of the differential cross-section over the geometrical one, sr⁻¹.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagram {
+    pub radii: Vec<f64>,
+    pub theta: Vec<f64>,
+    /// Per radius and angle: XYZ of the parallel and of the perpendicular part.
+    pub xyz: Vec<Vec<[[f64; 3]; 2]>>,
+}
+
+/// Light that an observer with or without a filter sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Polarisation {
+    Total,
+    Parallel,
+    Perpendicular,
+}
+
+/// The diagram of spheres by Lorenz–Mie.
+///
+/// # Errors
+/// [`LeeError`] for a medium without data in the visible, or angles and radii that make no sense.
+pub fn spheres(request: &Request) -> Result<Diagram, LeeError> {
+    diagram(request, Beats::All, &AngleSet::new, |radius, wavelength, index, angles| {
+        let sphere = Sphere::new(TAU * radius / wavelength, index)?;
+        let amplitudes = sphere.amplitudes_at(angles);
+        Ok(amplitudes.iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect())
+    })
+}
+
+/// The diagram by any method: `prepare` makes of a list of scattering angles (ascending) what
+/// `scatter` then gives the intensities of a drop at, for a radius, wavelength and index. Only the
+/// asked angles and the filter's reach beyond them are computed. Columns run in parallel, the
+/// largest drops first.
+///
+/// # Errors
+/// Those of `scatter`, and as [`spheres`].
+pub fn diagram<A, E, P, F>(
+    request: &Request,
+    beats: Beats,
+    prepare: &P,
+    scatter: F,
+) -> Result<Diagram, E>
+where
+    E: From<LeeError> + Send,
+    P: Fn(&[f64]) -> A + Sync,
+    F: Fn(f64, f64, Complex64, &A) -> Result<Vec<Intensity>, E> + Sync,
+{
+    check(request)?;
+    let index = request.medium.index(MIDDLE).map_err(LeeError::from)?.re;
+    let mut order: Vec<usize> = (0..request.radii.len()).collect();
+    order.sort_by(|&i, &j| request.radii[j].total_cmp(&request.radii[i]));
+    let mut columns = order
+        .par_iter()
+        .with_max_len(1)
+        .map(|&i| {
+            let sampling = Sampling::new(&request.need(request.radii[i], index, beats));
+            Ok((i, column(request, request.radii[i], &sampling, prepare, &scatter)?))
+        })
+        .collect::<Result<Vec<_>, E>>()?;
+    columns.sort_by_key(|(i, _)| *i);
+    Ok(Diagram {
+        radii: request.radii.clone(),
+        theta: request.theta.clone(),
+        xyz: columns.into_iter().map(|(_, column)| column).collect(),
+    })
+}
+
+/// Where the index that stands for the whole visible is taken.
+const MIDDLE: f64 = 550e-9;
+
+/// XYZ of the parallel part, then of the perpendicular one.
+type Stimuli = [f64; 6];
+
+/// One radius.
+fn column<A, E, P, F>(
+    request: &Request,
+    radius: f64,
+    sampling: &Sampling,
+    prepare: &P,
+    scatter: &F,
+) -> Result<Vec<[[f64; 3]; 2]>, E>
+where
+    E: From<LeeError> + Send,
+    P: Fn(&[f64]) -> A + Sync,
+    F: Fn(f64, f64, Complex64, &A) -> Result<Vec<Intensity>, E> + Sync,
+{
+    let filter = request.sun_disc.then(|| SunFilter::new(sampling.cutoff, TRANSITION));
+    let weights = weights(request, &sampling.wavelengths);
+    let bands = sampling
+        .bands
+        .par_iter()
+        .map(|band| {
+            let theta = match &filter {
+                Some(filter) => {
+                    let (first, last) = request.angles();
+                    grid(first, last, filter.reach(), band.step)
+                }
+                None => request.theta.clone(),
+            };
+            let angles = prepare(&theta);
+            let mut sums = vec![[0.0; 6]; theta.len()];
+            for i in band.places.clone() {
+                let wavelength = sampling.wavelengths[i];
+                let index = request.medium.index(wavelength).map_err(LeeError::from)?;
+                let size = size_of(radius, request.size_spread, i);
+                let intensities = scatter(size, wavelength, index, &angles)?;
+                let scale = (wavelength / TAU).powi(2) / (PI * radius * radius);
+                add(&mut sums, &intensities, weights[i].map(|w| w * scale));
+            }
+            let Some(filter) = &filter else { return Ok(sums) };
+            let middle = sampling.wavelengths[(band.places.start + band.places.end) / 2];
+            let kernel = filter.kernel(&LimbDarkening::at(middle));
+            Ok(kernel.average(&theta, band.step, &sums, &request.theta))
+        })
+        .collect::<Result<Vec<_>, E>>()?;
+    let total = |t: usize, c: usize| bands.iter().map(|band| band[t][c]).sum::<f64>().max(0.0);
+    let cell = |t: usize| [0, 3].map(|first| std::array::from_fn(|c| total(t, first + c)));
+    Ok((0..request.theta.len()).map(cell).collect())
+}
+
+/// Add what one wavelength contributes.
+fn add(sums: &mut [Stimuli], intensities: &[Intensity], weight: [f64; 3]) {
+    for (sum, intensity) in sums.iter_mut().zip(intensities) {
+        for c in 0..3 {
+            sum[c] += weight[c] * intensity[0];
+            sum[3 + c] += weight[c] * intensity[1];
+        }
+    }
+}
+
+/// Weights of wavelengths that stand for equal intervals of the wavenumber.
+fn weights(request: &Request, wavelengths: &[f64]) -> Vec<[f64; 3]> {
+    let widths: Vec<f64> = wavelengths.iter().map(|w| w * w).collect();
+    ColorWeights::quadrature(wavelengths, &widths, request.illuminant, request.observer).weights
+}
+
+impl Request {
+    /// First and last asked angle.
+    fn angles(&self) -> (f64, f64) {
+        (self.theta[0], self.theta[self.theta.len() - 1])
+    }
+
+    fn need(&self, radius: f64, index: f64, beats: Beats) -> SamplingNeed {
+        SamplingNeed {
+            radius,
+            index,
+            sun_disc: self.sun_disc,
+            beats,
+            size_spread: self.size_spread,
+            angles: self.angles(),
+            fineness: self.fineness,
+        }
+    }
+}
+
+/// The size of the i-th sample of a log-normal distribution about `radius`. Samples are equally
+/// likely and spread by the golden ratio over the quantiles, so that neighbouring wavelengths see
+/// different sizes and their mean sees all.
+fn size_of(radius: f64, spread: f64, i: usize) -> f64 {
+    if spread <= 0.0 {
+        return radius;
+    }
+    let quantile = ((i as f64 + 0.5) * GOLDEN).fract().clamp(1e-4, 1.0 - 1e-4);
+    radius * (spread * normal_quantile(quantile)).exp()
+}
+
+/// Inverse of the normal distribution by bisection of the error function.
+fn normal_quantile(quantile: f64) -> f64 {
+    let (mut low, mut high) = (-6.0, 6.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let below = 0.5 * libm::erfc(-middle / std::f64::consts::SQRT_2);
+        if below < quantile { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+impl Diagram {
+    /// XYZ as seen with or without a filter, per radius and angle.
+    pub fn seen(&self, polarisation: Polarisation) -> Vec<Vec<[f64; 3]>> {
+        let pick = |[parallel, perpendicular]: &[[f64; 3]; 2]| match polarisation {
+            Polarisation::Parallel => *parallel,
+            Polarisation::Perpendicular => *perpendicular,
+            Polarisation::Total => std::array::from_fn(|c| parallel[c] + perpendicular[c]),
+        };
+        self.xyz.iter().map(|column| column.iter().map(pick).collect()).collect()
+    }
+}
+
+/// Exposure of each column such that its brightest angle has the luminance `peak`.
+pub fn column_exposures(seen: &[Vec<[f64; 3]>], peak: f64) -> Vec<f64> {
+    seen.iter()
+        .map(|column| {
+            let brightest = column.iter().fold(0.0_f64, |m, xyz| m.max(xyz[1]));
+            if brightest > 0.0 { peak / brightest } else { 0.0 }
+        })
+        .collect()
+}
+
+fn check(request: &Request) -> Result<(), LeeError> {
+    let invalid =
+        |field, value: String, accepted| Err(LeeError::Invalid { field, value, accepted });
+    if let Some(bad) = request.radii.iter().find(|r| !(1e-7..=1e-2).contains(*r)) {
+        let value = format!("{} mm", bad * 1e3);
+        return invalid("radius", value, "accepted are 0.0001 to 10 mm");
+    }
+    if request.radii.is_empty() {
+        return invalid("radius", "none".into(), "at least one radius is needed");
+    }
+    let ascending = request.theta.windows(2).all(|pair| pair[0] < pair[1]);
+    let inside = request.theta.iter().all(|t| (0.0..=PI).contains(t));
+    if !ascending || !inside || request.theta.is_empty() {
+        let value = format!("{} angles", request.theta.len());
+        return invalid("theta", value, "accepted are ascending angles from 0 to 180 degrees");
+    }
+    let margin = AXIS_MARGIN;
+    let (first, last) = (request.theta[0], request.theta[request.theta.len() - 1]);
+    if request.sun_disc && (first < margin || last > PI - margin) {
+        let value = format!("{:.3} to {:.3} degrees", first.to_degrees(), last.to_degrees());
+        let accepted = "with the sun's disc, angles from 1.4 to 178.6 degrees are accepted";
+        return invalid("theta", value, accepted);
+    }
+    if !(0.0..=0.5).contains(&request.size_spread) {
+        return invalid("size_spread", request.size_spread.to_string(), "accepted are 0 to 0.5");
+    }
+    if !(0.1..=100.0).contains(&request.fineness) {
+        return invalid("fineness", request.fineness.to_string(), "accepted are 0.1 to 100");
+    }
+    Ok(())
+}

@@ -1,0 +1,198 @@
+//! How finely one column of a Lee diagram is sampled, so that its colours are right and nothing is
+//! computed that nobody sees.
+//!
+//! Two rays that reach the same angle from impact parameters `b₁`, `b₂` (in radii) beat with the
+//! frequency `x (b₁ - b₂)` in angle and with the difference of their paths in wavenumber.
+//! - **Angles.** The sun's disc lets slow beats pass and damps fast ones; beyond a cut-off the
+//!   colours average them out as well, so that the filter of [`SunFilter`](super::SunFilter) drops
+//!   them. The intensity of a drop holds no frequency above `2x` (partial waves end near n = x). A
+//!   grid of step `2π / (2x + cut-off + transition)` therefore gives the average without aliasing.
+//! - **Wavelengths** stand evenly in the wavenumber. What passes the filter are beats of nearly the
+//!   same way through the drop, few over the visible; a moderate number of wavelengths resolves
+//!   them. Small drops need more: there nearly every beat passes.
+//! - **Resonances** of light that runs round inside recur in the size parameter at the spacing
+//!   `arctan(m')/m'`, `m' = √(m² - 1)` (Chýlek 1990, J. Opt. Soc. Am. A 7, 1609). A grid that is
+//!   nearly commensurate with it hits or misses all of them alike. The number of wavelengths is
+//!   moved to the nearest one whose step is a whole number of spacings and the golden section.
+
+use crate::color::SUN_ANGULAR_RADIUS;
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+/// Visible range of the integral: beyond it lies less than 1e-3 of any stimulus.
+const BAND: (f64, f64) = (380e-9, 735e-9);
+/// Cut-off of the filter: this share of the size parameter …
+const CUTOFF_SHARE: f64 = 0.45;
+/// … and never less, or more: from here the disc has damped a beat to 4 %.
+const CUTOFF: (f64, f64) = (500.0, 2500.0);
+/// Width over which the filter falls from 1 to 0; its kernel is then shorter than five disc radii.
+pub const TRANSITION: f64 = 1000.0;
+/// Closer to the axis than this, beats between opposite sides of the drop are slow in wavelength.
+const NEAR_AXIS: f64 = 15.0 * PI / 180.0;
+/// Partial waves beyond n = x that still count, in angular frequency.
+const BEYOND_EDGE: f64 = 15.0;
+/// Number of wavelengths: for small drops; from which size parameter it falls, and with which
+/// power; and the least. Measured, see `validation/look.md`.
+const MOST: f64 = 1200.0;
+const FALLS_FROM: f64 = 520.0;
+const FALLS_AS: f64 = 1.3;
+const LEAST: f64 = 60.0;
+/// The same of waves without beats between orders: a few beats of the supernumerary bows remain.
+const MOST_APART: f64 = 64.0;
+const LEAST_APART: f64 = 40.0;
+/// Two rays of one order stand this far apart at the most, between 15° and 165°.
+const WITHIN_ORDER: f64 = 0.8;
+/// Least number with a spread of sizes, which takes its sizes from the same samples.
+const LEAST_SPREAD: f64 = 240.0;
+/// Without the disc nothing damps the beats: path differences up to this many radii, this often.
+const LONGEST_PATH: f64 = 5.5;
+const PER_BEAT: f64 = 1.5;
+/// Wavelengths that share one grid of angles and one limb darkening.
+const BANDS: usize = 8;
+/// The golden ratio's fraction.
+pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// Which waves beat with each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beats {
+    /// All: the exact series.
+    All,
+    /// Rays of one order only; the orders' intensities are added. What is lost are beats with path
+    /// differences of several radii, which colours of the smallest drops already average out.
+    WithinOrders,
+}
+
+/// What decides how a column is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SamplingNeed {
+    /// Metres.
+    pub radius: f64,
+    /// Refractive index of the drop, real part, in the middle of the visible.
+    pub index: f64,
+    /// Averaged over the sun's disc.
+    pub sun_disc: bool,
+    pub beats: Beats,
+    /// Standard deviation of ln(radius).
+    pub size_spread: f64,
+    /// First and last scattering angle, radians.
+    pub angles: (f64, f64),
+    /// Factor on the number of wavelengths, and on the cut-off in angle.
+    pub fineness: f64,
+}
+
+/// How finely one column is sampled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sampling {
+    /// Wavelengths, metres, in the middles of equal intervals of the wavenumber, descending.
+    pub wavelengths: Vec<f64>,
+    /// Beats that are kept, radians⁻¹.
+    pub cutoff: f64,
+    /// Wavelengths (places in the list above) that share a grid of angles.
+    pub bands: Vec<Band>,
+}
+
+/// Neighbouring wavelengths on one grid of angles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Band {
+    pub places: Range<usize>,
+    /// Step in scattering angle, radians.
+    pub step: f64,
+}
+
+impl Sampling {
+    /// Sampling of one column.
+    pub fn new(need: &SamplingNeed) -> Self {
+        let wavenumbers = (TAU / BAND.1, TAU / BAND.0);
+        let range = (wavenumbers.1 - wavenumbers.0) * need.radius;
+        let wanted = number(need, range);
+        let count = match need.beats {
+            Beats::All => off_resonance(wanted, range, need.index),
+            Beats::WithinOrders => wanted.ceil() as usize,
+        };
+        let width = (wavenumbers.1 - wavenumbers.0) / count as f64;
+        let wavelengths: Vec<f64> =
+            (0..count).map(|i| TAU / (wavenumbers.0 + (i as f64 + 0.5) * width)).collect();
+        // Sizes reach this far above the nominal one.
+        let largest = need.radius * (LARGEST_QUANTILE * need.size_spread).exp();
+        let share = if need.beats == Beats::All || near_axis(need) { 2.0 } else { WITHIN_ORDER };
+        let highest = |wavelength: f64| share * (TAU / wavelength * largest + BEYOND_EDGE);
+        let cutoff = cutoff(need).min(highest(BAND.0));
+        let bands = (0..count)
+            .step_by(count.div_ceil(BANDS))
+            .map(|from| {
+                let places = from..(from + count.div_ceil(BANDS)).min(count);
+                let highest = highest(wavelengths[places.end - 1]);
+                Band { places, step: TAU / (highest + cutoff + TRANSITION) }
+            })
+            .collect();
+        Self { wavelengths, cutoff, bands }
+    }
+
+    /// Number of directions × wavelengths over a span of angles.
+    pub fn samples(&self, span: f64) -> f64 {
+        self.bands.iter().map(|band| band.places.len() as f64 * span / band.step).sum()
+    }
+}
+
+/// Sizes are taken up to this quantile of the normal distribution, in standard deviations.
+const LARGEST_QUANTILE: f64 = 3.72;
+
+/// Number of wavelengths before resonances are considered; `range` is that of the size parameter.
+fn number(need: &SamplingNeed, range: f64) -> f64 {
+    let middle = TAU * need.radius / 550e-9;
+    let falls = (middle / FALLS_FROM).max(1.0).powf(-FALLS_AS);
+    let (most, least) = match need.beats {
+        Beats::All if need.size_spread > 0.0 => (MOST, LEAST_SPREAD),
+        Beats::All => (MOST, LEAST),
+        Beats::WithinOrders => (MOST_APART, LEAST_APART),
+    };
+    let with_disc = (most * falls).max(least);
+    if need.beats == Beats::WithinOrders {
+        return need.fineness * with_disc;
+    }
+    let without = (PER_BEAT * range * LONGEST_PATH / TAU).max(with_disc);
+    need.fineness * if need.sun_disc { with_disc } else { without }
+}
+
+/// The number of wavelengths near `wanted` whose step is golden to the spacing of resonances.
+fn off_resonance(wanted: f64, range: f64, index: f64) -> usize {
+    let root = (index * index - 1.0).max(0.0).sqrt();
+    if root < 1e-3 {
+        return wanted.ceil() as usize;
+    }
+    let spacing = root.atan() / root;
+    let steps = range / wanted / spacing;
+    let whole = steps.floor();
+    let golden = (-1..=1).flat_map(|k| {
+        let whole = whole + f64::from(k);
+        [whole + GOLDEN, whole + 1.0 - GOLDEN]
+    });
+    let below_one = (1..12).map(|power| GOLDEN.powi(power));
+    let distance = |s: f64| (s / steps).ln().abs();
+    let nearest = golden
+        .chain(below_one)
+        .filter(|s| *s > 0.0)
+        .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+        .unwrap_or(steps);
+    (range / (nearest * spacing)).ceil().max(1.0) as usize
+}
+
+/// Cut-off of the filter in angular frequency.
+fn cutoff(need: &SamplingNeed) -> f64 {
+    let size_parameter = TAU * need.radius / 550e-9;
+    let share = if near_axis(need) { 2.0 } else { CUTOFF_SHARE };
+    need.fineness * (share * size_parameter).clamp(CUTOFF.0, CUTOFF.1)
+}
+
+fn near_axis(need: &SamplingNeed) -> bool {
+    need.angles.0 < NEAR_AXIS || need.angles.1 > PI - NEAR_AXIS
+}
+
+/// Angles that one band needs: an even grid over the asked ones and the filter's reach beyond.
+pub fn grid(from: f64, to: f64, reach: f64, step: f64) -> Vec<f64> {
+    let count = ((to - from + 2.0 * reach) / step).ceil() as usize + 1;
+    (0..count).map(|j| from - reach + j as f64 * step).filter(|t| (0.0..=PI).contains(t)).collect()
+}
+
+/// Closest to the axis that the filter reaches no further than the axis itself.
+pub const AXIS_MARGIN: f64 = 5.0 * SUN_ANGULAR_RADIUS;
