@@ -7,10 +7,10 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
 use super::arc::{
-    Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, Segment, SLOPE,
+    Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment,
 };
-use super::rim::{self, RimLayout};
 use super::meridian::{Meridian, axial_ray};
+use super::rim::{self, RimLayout};
 use super::sweep::{Side, Sums, add_segment};
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
@@ -234,7 +234,8 @@ fn spans(meridians: &[Vec<Segment>]) -> Vec<(f64, f64)> {
     const ROOM: f64 = 1e-3;
     let count = meridians.first().map_or(0, Vec::len);
     let span = |s: usize| {
-        let ends = meridians.iter().flat_map(|m| m[s].knots.first().into_iter().chain(m[s].knots.last()));
+        let ends =
+            meridians.iter().flat_map(|m| m[s].knots.first().into_iter().chain(m[s].knots.last()));
         let angles = ends.map(|knot| knot[0]);
         angles.fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(a - ROOM), h.max(a + ROOM)))
     };
@@ -343,10 +344,8 @@ fn trace(
     if probes.iter().filter(differs).count() > 1 {
         return None;
     }
-    let arcs: Vec<Option<Arc>> = places
-        .par_iter()
-        .map(|&phi| arc(phi).filter(|arc| arc.signature() == signature))
-        .collect();
+    let arcs: Vec<Option<Arc>> =
+        places.par_iter().map(|&phi| arc(phi).filter(|arc| arc.signature() == signature)).collect();
     let found: Vec<&Arc> = arcs.iter().flatten().collect();
     if places.len() - found.len() > most_missing(places.len()) {
         return None;
@@ -432,7 +431,8 @@ fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segm
         let share = 1.0 / (after - before) as f64;
         let (a, b) = (meridians[before].as_ref()?, meridians[after].as_ref()?);
         let between = |(a, b): (&Segment, &Segment)| {
-            let knot = |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
+            let knot =
+                |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
             Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
         };
         meridians[k] = Some(a.iter().zip(b).map(between).collect());

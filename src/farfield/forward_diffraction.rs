@@ -161,7 +161,8 @@ fn hankel1(z: f64) -> Complex64 {
     }
     // Abramowitz & Stegun 9.2.7–10: the first terms left out are below 1e-8
     let w = 1.0 / z;
-    let (p, q) = (1.0 + w * w * (0.1171875 - 0.144195557 * w * w), w * (0.375 - 0.1025390625 * w * w));
+    let (p, q) =
+        (1.0 + w * w * (0.1171875 - 0.144195557 * w * w), w * (0.375 - 0.1025390625 * w * w));
     Complex64::from_polar((2.0 * w / PI).sqrt(), z - 0.75 * PI) * Complex64::new(p, q)
 }
 

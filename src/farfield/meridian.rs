@@ -294,19 +294,16 @@ impl Way<'_, '_, '_> {
     }
 
     /// Go from `first` over the nodes of a range; stop inside the gap about the axis.
-    fn follow(
-        &self,
-        nodes: &mut [Option<Node>],
-        first: Node,
-        range: impl Iterator<Item = usize>,
-    ) {
+    fn follow(&self, nodes: &mut [Option<Node>], first: Node, range: impl Iterator<Item = usize>) {
         let (m, s) = (self.meridian, self.silhouette);
         let (mut before, mut psi_rate) = (first, 0.0);
         for i in range {
             let alpha = m.alpha(i, self.count);
             let ahead = alpha - before.alpha;
             let near = before.angle + m.angle_on_sphere(alpha) - m.angle_on_sphere(before.alpha);
-            let Some(node) = m.node(s, alpha, before.psi + psi_rate * ahead, near) else { continue };
+            let Some(node) = m.node(s, alpha, before.psi + psi_rate * ahead, near) else {
+                continue;
+            };
             if ahead != 0.0 {
                 psi_rate = (node.psi - before.psi) / ahead;
             }

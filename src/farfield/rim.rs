@@ -16,7 +16,7 @@
 //! The integral takes over from single rays with a smooth weight: rays well inside the rim are left
 //! to the plain segments of the meridian, with the weight's complement.
 
-use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, Segment, SLOPE};
+use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::meridian::Node;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::phase::sin_cos_turns;
@@ -105,9 +105,7 @@ pub fn taper(
     if full < DEEPEST {
         return None;
     }
-    let zone = |b: f64| {
-        (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip()
-    };
+    let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
     let zones = if order == FIRST_ORDER { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
     let start = (full - zones * zone(full)).max(0.5 * full);
     let start = start.max(clear_of_axis(index, order, b, 1.25 * axis_gap)?);
@@ -301,11 +299,7 @@ const INSIDE: usize = 3;
 const MEETINGS: usize = 4;
 
 /// The rim wave of a meridian. `None` where its rays cannot be followed that far.
-pub fn rim_wave(
-    arc: &Arc,
-    layout: &RimLayout,
-    size_parameter: f64,
-) -> Option<Segment> {
+pub fn rim_wave(arc: &Arc, layout: &RimLayout, size_parameter: f64) -> Option<Segment> {
     let meridian = arc.meridian();
     let first = arc.ray_at(layout.start)?;
     let rays = Rays::through(arc, layout)?;
@@ -314,9 +308,8 @@ pub fn rim_wave(
     let ahead = arc.ray_at(layout.start + 0.01 * (layout.full - layout.start))?;
     let impact = |node: &Node| node.exit.reference.dot(meridian.frame(node.angle).1);
     let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
-    let phase = Complex64::cis(
-        -FRAC_PI_2 * (1.0 + f64::from(first.exit.focal_lines)) - FRAC_PI_4 * turn,
-    );
+    let phase =
+        Complex64::cis(-FRAC_PI_2 * (1.0 + f64::from(first.exit.focal_lines)) - FRAC_PI_4 * turn);
     let scale = (size_parameter / TAU).sqrt();
     // towards the rim impacts grow in size
     let sense = impact(&first).signum();

@@ -71,14 +71,7 @@ pub fn add_segment(
 
 /// One pass over the pieces between knots in the order of the samples, for one whole number of turns.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
-fn sweep(
-    rows: &mut [[f64; 8]],
-    theta: &[f64],
-    segment: &Segment,
-    side: Side,
-    turn: f64,
-    x: f64,
-) {
+fn sweep(rows: &mut [[f64; 8]], theta: &[f64], segment: &Segment, side: Side, turn: f64, x: f64) {
     let sign = if side == Side::Near { 1.0 } else { -1.0 };
     let knots = &segment.knots;
     let pieces = knots.len() - 1;
@@ -184,12 +177,8 @@ fn single(rows: &mut [[f64; 8]], samples: &Samples, a: &Knot, b: &Knot, x: f64, 
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
     let per_turn = x / TAU;
-    let [va, sa, vb, sb] = [
-        part(a, PLAIN_AMPLITUDE),
-        part(a, SLOPE),
-        part(b, PLAIN_AMPLITUDE),
-        part(b, SLOPE),
-    ];
+    let [va, sa, vb, sb] =
+        [part(a, PLAIN_AMPLITUDE), part(a, SLOPE), part(b, PLAIN_AMPLITUDE), part(b, SLOPE)];
     for (block, rows) in rows.chunks_mut(LANES).enumerate() {
         let (t, _) = samples.places(LANES * block, a[0], 1.0 / h);
         let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);

@@ -91,9 +91,8 @@ impl Grazing {
             (airy_pair(eta, -1.0)?, airy_pair(eta, 1.0)?)
         };
         // √cos θ η^{-1/4} is smooth through grazing incidence
-        let asymptote = |sign: f64| {
-            scale.sqrt() * Complex64::from_polar(0.5 / PI.sqrt(), -sign * PI / 12.0)
-        };
+        let asymptote =
+            |sign: f64| scale.sqrt() * Complex64::from_polar(0.5 / PI.sqrt(), -sign * PI / 12.0);
         let (root, root_in) = (asymptote(-1.0) / out.0, asymptote(1.0) / inward.0);
         let found = Self {
             lambda: -Complex64::cis(FRAC_PI_6) * out.1 / out.0 * scale,
