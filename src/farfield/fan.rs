@@ -151,7 +151,7 @@ impl OrderFan {
         let azimuths = azimuths(tracer, settings);
         let steps = if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
         let places = azimuths.places(settings, steps);
-        let density = 32.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
+        let density = 16.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let tangle = tangle(tracer, order);
         let x = settings.size_parameter;
         let with_rim = axis_gaps(order, tangle, true)

@@ -26,7 +26,7 @@ pub struct ForwardDiffraction {
 /// Number of points on the outline (a power of 2); the line integral serves while `x sin θ` is below
 /// `LINE_UP_TO`.
 const POINTS: usize = 1024;
-const LINE_UP_TO: f64 = 100.0;
+const LINE_UP_TO: f64 = 64.0;
 /// Angle in units of `x^(-1/3)` at which edge waves fade.
 const FADE: f64 = 2.0;
 
@@ -80,6 +80,23 @@ impl ForwardDiffraction {
         self.amplitude(size_parameter, direction) / (1.0 + penumbra.powi(2)).powi(2)
     }
 
+    /// The same at several scattering angles of one azimuth, beyond the peak itself.
+    pub fn tails(&self, size_parameter: f64, theta: &[f64], phi: f64) -> Vec<Complex64> {
+        let (near, far) = (self.support_at(phi), self.support_at(phi + PI));
+        let tail = |&theta: &f64| {
+            let (sin, cos) = theta.sin_cos();
+            let q = size_parameter * sin;
+            if self.circular || q < LINE_UP_TO {
+                return self.tail(size_parameter, &Direction::new(theta, phi));
+            }
+            let penumbra = theta * size_parameter.cbrt() / FADE;
+            let fade = 1.0 / (1.0 + penumbra.powi(2)).powi(2);
+            let scale = size_parameter * size_parameter / TAU * 0.5 * (1.0 + cos);
+            scale * fade * between(q, near, far)
+        };
+        theta.iter().map(tail).collect()
+    }
+
     /// Scattering angle beyond which edge waves are so faint that the rays hide them.
     pub fn farthest(&self, size_parameter: f64) -> f64 {
         // amplitude of the edge wave with its fade against one of the rays, which is of the order x
@@ -119,11 +136,7 @@ impl ForwardDiffraction {
 
     /// The two points of stationary phase.
     fn two_points(&self, q: f64, azimuth: f64) -> Complex64 {
-        let [h1, r1] = self.support_at(azimuth);
-        let [h2, r2] = self.support_at(azimuth + PI);
-        let near = hankel1(q * h1).conj() * (r1 * h1).sqrt();
-        let far = hankel1(q * h2) * (r2 * h2).sqrt();
-        (near + far) * (PI / q)
+        between(q, self.support_at(azimuth), self.support_at(azimuth + PI))
     }
 
     /// Support and radius of curvature where the outline's normal has this azimuth.
@@ -146,6 +159,13 @@ impl ForwardDiffraction {
         }
         out
     }
+}
+
+/// Waves of two points of the outline, each with its support and radius of curvature.
+fn between(q: f64, [h1, r1]: [f64; 2], [h2, r2]: [f64; 2]) -> Complex64 {
+    let near = hankel1(q * h1).conj() * (r1 * h1).sqrt();
+    let far = hankel1(q * h2) * (r2 * h2).sqrt();
+    (near + far) * (PI / q)
 }
 
 /// `2 J₁(z)/z`.

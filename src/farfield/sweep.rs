@@ -10,6 +10,7 @@ use crate::math::airy;
 use crate::math::phase::sin_cos_turns;
 use crate::optics::AmplitudeMatrix;
 use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
@@ -107,11 +108,17 @@ fn sweep(rows: &mut [[f64; 8]], theta: &[f64], segment: &Segment, side: Side, tu
         let samples = Samples { theta: &theta[begin..end], sign, turn };
         let rows = &mut rows[begin..end];
         match segment.kind {
-            Kind::Plain { focal_lines, .. } => {
-                let turns = -0.25 * f64::from(1 + focal_lines);
-                single(rows, &samples, &knots[k], &knots[k + 1], x, turns);
+            Kind::Plain { .. } | Kind::Wave => {
+                let turns = match segment.kind {
+                    Kind::Plain { focal_lines, .. } => -0.25 * f64::from(1 + focal_lines),
+                    _ => 0.0,
+                };
+                if target_cfg_f!(target_feature = "fma") {
+                    single::<true>(rows, &samples, &knots[k], &knots[k + 1], x, turns);
+                } else {
+                    single::<false>(rows, &samples, &knots[k], &knots[k + 1], x, turns);
+                }
             }
-            Kind::Wave => single(rows, &samples, &knots[k], &knots[k + 1], x, 0.0),
             Kind::Pair { focal_lines } => {
                 let turns = -0.25 - 0.125 * f64::from(focal_lines);
                 let slopes = slopes.get_or_insert_with(|| parabola_slopes(knots));
@@ -173,7 +180,7 @@ fn hermite_weights(t: f64, h: f64) -> [f64; 4] {
 
 /// One wave per sample.
 #[inline(always)]
-fn single(rows: &mut [[f64; 8]], samples: &Samples, a: &Knot, b: &Knot, x: f64, turns: f64) {
+fn single<const FMA: bool>(rows: &mut [[f64; 8]], samples: &Samples, a: &Knot, b: &Knot, x: f64, turns: f64) {
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
     let per_turn = x / TAU;
@@ -190,14 +197,22 @@ fn single(rows: &mut [[f64; 8]], samples: &Samples, a: &Knot, b: &Knot, x: f64, 
             let w = hermite_weights(t[k], h);
             let mut v = [0.0; 8];
             for c in 0..8 {
-                v[c] = w[0] * va[c] + w[1] * sa[c] + w[2] * vb[c] + w[3] * sb[c];
+                let values = madd::<FMA>(w[0], va[c], w[2] * vb[c]);
+                v[c] = madd::<FMA>(w[1], sa[c], madd::<FMA>(w[3], sb[c], values));
             }
             for e in 0..4 {
-                row[2 * e] += v[2 * e] * cos[k] - v[2 * e + 1] * sin[k];
-                row[2 * e + 1] += v[2 * e] * sin[k] + v[2 * e + 1] * cos[k];
+                let (re, im) = (v[2 * e], v[2 * e + 1]);
+                row[2 * e] = madd::<FMA>(re, cos[k], madd::<FMA>(-im, sin[k], row[2 * e]));
+                row[2 * e + 1] = madd::<FMA>(re, sin[k], madd::<FMA>(im, cos[k], row[2 * e + 1]));
             }
         }
     }
+}
+
+/// `a b + c`, in one instruction where the machine has it (elsewhere that would be a slow call).
+#[inline(always)]
+fn madd<const FMA: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if FMA { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// Eight channels of a knot from one on.

@@ -2,7 +2,7 @@
 
 use super::forward_diffraction::ForwardDiffraction;
 use super::forward_peak::{self, ForwardCells, PeakRows, PeakSample};
-use super::{Direction, FarField, gaussian_filter};
+use super::{FarField, gaussian_filter};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, ForwardPeak, Quantity};
 use ndarray::{Array2, Array3, ArrayViewMut3, Axis};
@@ -154,10 +154,10 @@ impl Tabulator<'_> {
             let sample = |(i, s)| self.forward_sample(&column, cells, i, s);
             forward = samples.into_iter().enumerate().map(sample).collect();
             let end = self.theta.partition_point(|&theta| theta < peak.farthest);
-            for i in forward.len()..end {
-                let direction = Direction::new(self.theta[i], phi);
-                let tail = peak.diffraction.tail(self.size_parameter, &direction);
-                forward_peak::add(&mut column.amplitude[i], tail);
+            let rows = forward.len()..end.max(forward.len());
+            let tails = peak.diffraction.tails(self.size_parameter, &self.theta[rows.clone()], phi);
+            for (amplitude, tail) in column.amplitude[rows].iter_mut().zip(tails) {
+                forward_peak::add(amplitude, tail);
             }
         }
         let elements = self.quantity.elements();
@@ -305,10 +305,11 @@ fn fill(mut values: ArrayViewMut3<f32>, lines: &[Line], places: &[(usize, bool)]
 /// Mean cosine of the scattering angle over the samples.
 fn asymmetry(values: &Array3<f32>, weights: &Array2<f64>, theta: &[f64]) -> f64 {
     let (mut sum, mut cosine) = (0.0, 0.0);
-    for ((i, j), &w) in weights.indexed_iter() {
-        let power = w * f64::from(values[[0, i, j]]);
+    let first = values.index_axis(Axis(0), 0);
+    for ((row, weights), theta) in first.rows().into_iter().zip(weights.rows()).zip(theta) {
+        let power: f64 = row.iter().zip(weights).map(|(&v, w)| w * f64::from(v)).sum();
         sum += power;
-        cosine += power * theta[i].cos();
+        cosine += power * theta.cos();
     }
     if sum > 0.0 { cosine / sum } else { 0.0 }
 }
