@@ -122,27 +122,29 @@ fn errors(
 
 /// Known defects: size, flatness, sun elevation, plane, lower end of the band, and the bound that
 /// stands just above what was measured. Orders from 4 on (on the horizontal plane with the light
-/// along a plane of symmetry also order 2) come from patches, whose rays have no bound at a caustic.
+/// along a plane of symmetry also order 2) come from patches, whose rays are only bounded at a caustic.
+/// Ratios also rise where the sphere's own error falls: its order 3 is a rim wave, that of spheroids is
+/// not.
 const DEFECTS: [(f64, f64, f64, &str, f64, f64); 24] = [
     (20.0, 1.1, 0.0, "horizontal", 100.0, 6.02),
     (20.0, 1.1, 0.0, "horizontal", 160.0, 6.77),
     (50.0, 1.05, 0.0, "horizontal", 10.0, 1.43),
-    (50.0, 1.05, 0.0, "vertical", 100.0, 2.03),
+    (50.0, 1.05, 0.0, "vertical", 100.0, 2.16),
     (50.0, 1.05, 30.0, "horizontal", 0.0, 1.34),
     (50.0, 1.05, 30.0, "horizontal", 10.0, 1.58),
-    (50.0, 1.05, 30.0, "horizontal", 100.0, 1.90),
+    (50.0, 1.05, 30.0, "horizontal", 100.0, 2.14),
     (50.0, 1.05, 30.0, "vertical", 100.0, 2.32),
     (100.0, 1.02, 0.0, "horizontal", 10.0, 1.38),
     (100.0, 1.02, 0.0, "horizontal", 100.0, 1.51),
-    (100.0, 1.02, 0.0, "vertical", 10.0, 1.42),
+    (100.0, 1.02, 0.0, "vertical", 10.0, 1.49),
     (100.0, 1.02, 0.0, "vertical", 100.0, 1.76),
     (100.0, 1.02, 30.0, "horizontal", 10.0, 1.60),
-    (100.0, 1.02, 30.0, "horizontal", 100.0, 2.03),
-    (100.0, 1.02, 30.0, "vertical", 100.0, 1.53),
+    (100.0, 1.02, 30.0, "horizontal", 100.0, 2.19),
+    (100.0, 1.02, 30.0, "vertical", 100.0, 1.70),
     (100.0, 1.1, 0.0, "horizontal", 0.0, 1.43),
     (100.0, 1.1, 0.0, "horizontal", 10.0, 1.63),
-    (100.0, 1.1, 0.0, "horizontal", 100.0, 42.19),
-    (100.0, 1.1, 0.0, "horizontal", 160.0, 11.97),
+    (100.0, 1.1, 0.0, "horizontal", 100.0, 10.4),
+    (100.0, 1.1, 0.0, "horizontal", 160.0, 3.0),
     (100.0, 1.1, 0.0, "vertical", 0.0, 1.40),
     (100.0, 1.1, 0.0, "vertical", 10.0, 1.44),
     (100.0, 1.1, 0.0, "vertical", 100.0, 1.99),

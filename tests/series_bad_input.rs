@@ -26,7 +26,7 @@ fn sizes_and_indices_without_meaning() {
         ("--index", "1.333-0.1", "--index"),
         ("--index", "nan", "--index"),
         ("--index", "0", "--index"),
-        ("--index", "1e9", "terms: accepted are at most 20000000 (1.3 GB)"),
+        ("--index", "1e9", "n from 1e-4 to 1e4, k from 0 to 1e4 are accepted"),
         ("--theta", "181", "--theta 181"),
         ("--theta", "nan", "--theta"),
     ];

@@ -151,12 +151,15 @@ impl OrderFan {
         let azimuths = azimuths(tracer, settings);
         let steps = if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
         let places = azimuths.places(settings, steps);
-        let density = 16.0 * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
+        // knots per radian at 1 %: the strongest orders have more
+        let density = if order <= 2 { 36.0 } else { 16.0 };
+        let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let tangle = tangle(tracer, order);
         let x = settings.size_parameter;
-        let with_rim = axis_gaps(order, tangle, true)
-            .into_iter()
-            .filter_map(|gap| Some((Some(rim_layout(tracer, order, x, tangle, gap)?), gap)));
+        let with_rim = axis_gaps(order, tangle, true).into_iter().filter_map(|gap| {
+            let rim = rim_layout(tracer, order, x, tangle, gap)?;
+            Some((Some(rim), gap))
+        });
         let without = axis_gaps(order, tangle, false).into_iter().map(|gap| (None, gap));
         let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {

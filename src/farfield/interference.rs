@@ -25,6 +25,9 @@ pub enum PathInterpolation {
 pub struct Interference {
     pub size_parameter: f64,
     pub interpolation: PathInterpolation,
+    /// Largest `dA/dΩ` that a ray from order 2 on may have: at a caustic rays have none, the wave
+    /// there has (of the order of `x^{1/3}` at a fold).
+    pub largest_jacobian: f64,
 }
 
 /// The result for one direction.
@@ -64,7 +67,8 @@ impl Interference {
     pub fn amplitude(&self, hit: &Hit, direction: &Direction) -> AmplitudeMatrix {
         let corners = hit.sheet.triangles[hit.triangle].map(|i| &hit.sheet.corners[i as usize]);
         let path = self.path(&corners, hit.weights, direction.unit);
-        let size = jacobian(&corners, hit).sqrt();
+        let bound = if hit.sheet.order < 2 { f64::INFINITY } else { self.largest_jacobian };
+        let size = jacobian(&corners, hit).min(bound).sqrt();
         let transfer = transfer(&corners, hit.weights, direction);
         let turns = -0.25 * f64::from(1 + focal_lines(&corners, hit.sense));
         let phase = self.size_parameter * path + std::f64::consts::TAU * turns;

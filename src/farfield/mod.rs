@@ -51,7 +51,8 @@ impl<'a> FarField<'a> {
     /// Patches on the collecting sphere.
     pub fn patches(shape: &'a Shape, sheets: Vec<patch::Sheet>, size_parameter: f64) -> Self {
         let interpolation = PathInterpolation::Gradient;
-        let interference = Interference { size_parameter, interpolation };
+        let largest_jacobian = f64::INFINITY;
+        let interference = Interference { size_parameter, interpolation, largest_jacobian };
         Self {
             source: Source::Patches(CollectingSphere::new(sheets), interference),
             silhouette: ForwardDiffraction::new(shape),
@@ -70,7 +71,9 @@ impl<'a> FarField<'a> {
             let sheets = patch::sheets(tracer, &wavefront, &fan.irregular);
             let size_parameter = settings.size_parameter;
             let interpolation = PathInterpolation::Gradient;
-            (CollectingSphere::new(sheets), Interference { size_parameter, interpolation })
+            let largest_jacobian = FOLD_JACOBIAN * size_parameter.cbrt();
+            let interference = Interference { size_parameter, interpolation, largest_jacobian };
+            (CollectingSphere::new(sheets), interference)
         });
         Self {
             source: Source::Meridians(fan, patches),
@@ -174,6 +177,8 @@ fn patch_column(
     column
 }
 
+/// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`.
+const FOLD_JACOBIAN: f64 = 0.5;
 /// Rings of the patch grid for irregular orders at a tolerance of 1 %.
 const FALLBACK_RINGS: f64 = 90.0;
 

@@ -44,10 +44,11 @@ pub struct RimLayout {
     spare: f64,
 }
 
-/// Lowest order served, where nothing depends on azimuth and elsewhere: the secondary bow's wave
-/// changes too fast with azimuth to be interpolated, and two rays serve it nearly as well.
+/// Lowest order served, and the same for deformed particles: there the secondary bow's wave changes
+/// too fast with azimuth to be interpolated, its penumbra from continued polynomials is not
+/// reciprocal, and two rays serve nearly as well.
 const FIRST_ORDER: u32 = 3;
-const FIRST_ORDER_BY_AZIMUTH: u32 = 4;
+const FIRST_ORDER_DEFORMED: u32 = 4;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
@@ -97,7 +98,7 @@ pub fn taper(
     const DEEPEST: f64 = 0.3;
     const FEWEST_WIDTHS: f64 = 2.0;
     const FEWEST_ZONES: f64 = 5.0;
-    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_BY_AZIMUTH };
+    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
     let b = bow(index, order).filter(|_| order >= first)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);

@@ -45,7 +45,7 @@ pub enum Side {
 /// Samples whose phases are computed side by side.
 const LANES: usize = 8;
 /// Angle within which a sample counts as the axial ray.
-const AXIAL: f64 = 1e-9;
+const AXIAL: f64 = 2e-10;
 
 /// Add a segment to the samples `theta` (ascending, radians) on one side of its plane.
 pub fn add_segment(
@@ -134,7 +134,7 @@ fn sweep(rows: &mut [[f64; 8]], theta: &[f64], segment: &Segment, side: Side, tu
 fn with_axial(low: f64, high: f64, side: Side, falling: bool) -> (f64, f64) {
     let end = if falling { 1.0 } else { 0.0 };
     if side == Side::Near {
-        return (low - AXIAL, high + end * 2.0 * AXIAL);
+        return (low - AXIAL, high + end * AXIAL);
     }
     (low + (1.0 - end) * AXIAL, high - end * AXIAL)
 }
@@ -180,7 +180,14 @@ fn hermite_weights(t: f64, h: f64) -> [f64; 4] {
 
 /// One wave per sample.
 #[inline(always)]
-fn single<const FMA: bool>(rows: &mut [[f64; 8]], samples: &Samples, a: &Knot, b: &Knot, x: f64, turns: f64) {
+fn single<const FMA: bool>(
+    rows: &mut [[f64; 8]],
+    samples: &Samples,
+    a: &Knot,
+    b: &Knot,
+    x: f64,
+    turns: f64,
+) {
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
     let per_turn = x / TAU;

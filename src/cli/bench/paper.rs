@@ -50,6 +50,7 @@ fn collect(case: &Case, orders: &[u32], rays_across: usize) -> Vec<(AmplitudeMat
     let interference = Interference {
         size_parameter: case.size_parameter,
         interpolation: PathInterpolation::Linear,
+        largest_jacobian: f64::INFINITY,
     };
     case.theta
         .par_iter()
