@@ -334,10 +334,10 @@ fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f6
     let mut knot = [0.0; CHANNELS];
     (knot[0], knot[1], knot[2]) = (angle, path, slope);
     let shrink = -0.5 * angle.cos() / angle.sin();
-    for element in 0..4 {
-        let value = factor * sums[0][element];
+    for (element, (sum, by_impact)) in sums[0].iter().zip(&sums[1]).enumerate() {
+        let value = factor * sum;
         // d/dϑ of exp(-ix(βϑ + W_ref)) and of 1/√sin ϑ
-        let by_angle = -Complex64::i() * x * (factor * sums[1][element] + slope * value);
+        let by_angle = -Complex64::i() * x * (factor * by_impact + slope * value);
         let rate = by_angle + shrink * value;
         let c = PLAIN_AMPLITUDE + 2 * element;
         (knot[c], knot[c + 1]) = (value.re, value.im);

@@ -149,13 +149,13 @@ struct Samples<'a> {
 impl Samples<'_> {
     /// Place between the knots, from 0 to 1, of samples from `start` on; beyond the last, 0.
     #[inline(always)]
-    fn places(&self, start: usize, from: f64, inverse: f64) -> ([f64; LANES], usize) {
+    fn places(&self, start: usize, from: f64, inverse: f64) -> [f64; LANES] {
         let mut t = [0.0; LANES];
         let count = LANES.min(self.theta.len() - start);
-        for k in 0..count {
-            t[k] = (self.sign * self.theta[start + k] + self.turn - from) * inverse;
+        for (t, theta) in t.iter_mut().zip(&self.theta[start..start + count]) {
+            *t = (self.sign * theta + self.turn - from) * inverse;
         }
-        (t, count)
+        t
     }
 }
 
@@ -194,7 +194,7 @@ fn single<const FMA: bool>(
     let [va, sa, vb, sb] =
         [part(a, PLAIN_AMPLITUDE), part(a, SLOPE), part(b, PLAIN_AMPLITUDE), part(b, SLOPE)];
     for (block, rows) in rows.chunks_mut(LANES).enumerate() {
-        let (t, _) = samples.places(LANES * block, a[0], 1.0 / h);
+        let t = samples.places(LANES * block, a[0], 1.0 / h);
         let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
             let (s, c) = sin_cos_turns(per_turn * cubic(&path, t[k]) + turns);
@@ -246,7 +246,7 @@ fn pair(
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
     let zeta = hermite(a[3], a[4] * h, b[3], b[4] * h);
     for (block, rows) in rows.chunks_mut(LANES).enumerate() {
-        let (t, _) = samples.places(LANES * block, a[0], 1.0 / h);
+        let t = samples.places(LANES * block, a[0], 1.0 / h);
         for (k, row) in rows.iter_mut().enumerate() {
             let (s, c) = sin_cos_turns(per_turn * cubic(&path, t[k]) + turns);
             let (ai, slope) = airy::ai(-two_thirds * cubic(&zeta, t[k]));
