@@ -17,6 +17,8 @@ pub mod interference;
 pub mod meridian;
 pub mod patch;
 pub mod rim;
+mod rim_integrand;
+mod rim_rays;
 pub mod sweep;
 pub mod tabulate;
 

@@ -8,7 +8,7 @@
 //! `a = T √(1/|∂(β, s⊥)/∂(u, v)|)`,
 //! whose points of stationary phase are the rays; it stays true where they merge, and its integrand
 //! goes on smoothly beyond the last ray, where waves tunnel through the surface: the coefficients of
-//! the curved interface ([`Grazing::whole`]) are analytic there. Launch points beyond the rim are not
+//! the curved interface ([`crate::optics::Grazing::whole`]) are analytic there. Launch points beyond the rim are not
 //! traced: path, angles of incidence, curvatures and frames are polynomials through real rays, taken
 //! a few wave zones further. For the sphere this is the Debye term in its asymptotic form (the sum
 //! over partial waves as an integral); measured against it, it errs by 0.05 % at x = 5000.
@@ -18,12 +18,8 @@
 
 use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::meridian::Node;
-use crate::math::chebyshev::{self, Chebyshev};
-use crate::math::phase::sin_cos_turns;
-use crate::math::vec3::Vec3;
-use crate::optics::{Grazing, curved_from_inside};
-use crate::trace::Meeting;
-use multiversion::multiversion;
+use super::rim_integrand::Sums;
+use super::rim_rays::{RAYS, Rays};
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -39,9 +35,9 @@ pub struct RimLayout {
     /// impact.
     pub knots: Vec<[f64; 2]>,
     /// Degree of the polynomials through real rays.
-    degree: usize,
+    pub(super) degree: usize,
     /// Share of the stretch from `start` to the rim that is left out before the last ray.
-    spare: f64,
+    pub(super) spare: f64,
 }
 
 /// Lowest order served, and the same for deformed particles: there the secondary bow's wave changes
@@ -55,14 +51,8 @@ const AIRY_WIDTHS: f64 = 5.0;
 /// served is ten times as strong as the others.
 const FRESNEL_ZONES: f64 = 14.0;
 const FRESNEL_ZONES_HIGH: f64 = 10.0;
-/// Wave zones `x^{-2/3}` beyond the last ray at which tunnelling has ended.
-const TUNNEL: f64 = 4.0;
-/// Real rays through which the polynomials pass.
-const RAYS: usize = 20;
 /// Knots per period of the wave against its reference.
 const KNOTS_PER_PERIOD: f64 = 4.0;
-/// Samples of the integrand per period of its phase.
-const SAMPLES_PER_PERIOD: f64 = 1.8;
 
 /// Impact of the ray of a sphere's bow of this order, if there is one.
 fn bow(index: f64, order: u32) -> Option<f64> {
@@ -282,23 +272,6 @@ fn knots(
     }
 }
 
-/// What the integral needs along a meridian, as polynomials in the launch point `sin α`.
-struct Rays {
-    channels: Vec<Chebyshev<1>>,
-    order: usize,
-    /// Launch points of the first and the last real ray.
-    from: f64,
-    to: f64,
-}
-
-/// Channels: impact, path L without the part outside, spreading, path inside, then three for each
-/// meeting with the surface, then the last turn of the frame.
-const IMPACT: usize = 0;
-const PATH: usize = 1;
-const SPREADING: usize = 2;
-const INSIDE: usize = 3;
-const MEETINGS: usize = 4;
-
 /// The rim wave of a meridian. `None` where its rays cannot be followed that far.
 pub fn rim_wave(arc: &Arc, layout: &RimLayout, size_parameter: f64) -> Option<Segment> {
     let meridian = arc.meridian();
@@ -327,9 +300,6 @@ pub fn rim_wave(arc: &Arc, layout: &RimLayout, size_parameter: f64) -> Option<Se
     knots.iter().flatten().all(|v| v.is_finite()).then_some(Segment { kind: Kind::Wave, knots })
 }
 
-/// Sums of the four elements against the reference path, and of the same times the impact.
-type Sums = [[Complex64; 4]; 2];
-
 fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f64) -> Knot {
     let mut knot = [0.0; CHANNELS];
     (knot[0], knot[1], knot[2]) = (angle, path, slope);
@@ -345,245 +315,4 @@ fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f6
         (knot[c], knot[c + 1]) = (rate.re, rate.im);
     }
     knot
-}
-
-/// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
-/// which their phase stands still.
-struct Anchor {
-    angle: f64,
-    impact: f64,
-    path: f64,
-}
-
-impl Rays {
-    /// The anchor for a launch point. It varies smoothly with azimuth, also where no real ray leaves.
-    fn anchor(&self, sin: f64) -> Anchor {
-        let ((path, path_rate), (impact, rate)) = (self.at(PATH, sin), self.at(IMPACT, sin));
-        let angle = path_rate / rate;
-        Anchor { angle, impact, path: path - impact * angle }
-    }
-
-    /// Trace real rays from the start of the taper to the last that leaves.
-    fn through(arc: &Arc, layout: &RimLayout) -> Option<Self> {
-        let meridian = arc.meridian();
-        let order = meridian.order as usize;
-        let to = arc.last_ray().alpha.sin() - layout.spare * (1.0 - layout.start);
-        let points = chebyshev::points(RAYS, layout.start, to);
-        let mut meetings: Vec<Meeting> = Vec::new();
-        let mut rows = Vec::with_capacity(RAYS);
-        for sin in points {
-            let node = arc.ray_at(sin)?;
-            let [u, v] = node.place;
-            meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings)?;
-            rows.push(row(arc, &node, &meetings)?);
-        }
-        // unwrap the turns of frames, which are smooth
-        for k in 1..rows.len() {
-            for hit in 0..=order + 1 {
-                let c = MEETINGS + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
-                rows[k][c] += TAU * ((rows[k - 1][c] - rows[k][c]) / TAU).round();
-            }
-        }
-        let channels = (0..rows[0].len())
-            .map(|c| {
-                let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
-                let mut series = Chebyshev::fit(&values, layout.start, to);
-                series.truncate(layout.degree);
-                series
-            })
-            .collect();
-        Some(Self { channels, order, from: layout.start, to })
-    }
-
-    fn at(&self, channel: usize, sin: f64) -> (f64, f64) {
-        let ([value], [slope]) = self.channels[channel].at(sin);
-        (value, slope)
-    }
-
-    /// The integrand on an even grid of launch points, up to where tunnelling ends.
-    fn integrand(
-        &self,
-        layout: &RimLayout,
-        index: Complex64,
-        x: f64,
-        length: f64,
-    ) -> Option<Integrand> {
-        let edge = self.last_real();
-        let end = (edge + TUNNEL * x.powf(-2.0 / 3.0)).min(0.98 * index.re);
-        // the phase turns by x (ϑ(β) - ϑ) per impact; ϑ(β) strays beyond the knots by this at most
-        const STRAY: f64 = 0.5;
-        let count = ((end - self.from) * x * (length + STRAY) * SAMPLES_PER_PERIOD / TAU).ceil();
-        let step = (end - self.from) / count;
-        let count = count as usize;
-        let mut integrand = Integrand::with_capacity(count);
-        for k in 1..count {
-            let sin = self.from + k as f64 * step;
-            let weight = layout.weight(sin) * step;
-            let matrix = self.transfer(sin, index, x)?;
-            let (spreading, _) = self.at(SPREADING, sin);
-            let (impact, rate) = self.at(IMPACT, sin);
-            let (path, _) = self.at(PATH, sin);
-            let (inside, _) = self.at(INSIDE, sin);
-            let absorbed = (-x * index.im * inside / index.re).exp();
-            let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
-            integrand.push(impact, path, matrix.map(|m| m * factor));
-        }
-        integrand.fill_lanes();
-        Some(integrand)
-    }
-
-    /// Launch point at which the first of entry and exit becomes grazing.
-    fn last_real(&self) -> f64 {
-        let grazing = |channel: usize| {
-            let mut sin = self.to;
-            for _ in 0..20 {
-                let (value, slope) = self.at(channel, sin);
-                let step = (value / slope).clamp(-0.02, 0.02);
-                if !step.is_finite() {
-                    return f64::INFINITY;
-                }
-                sin -= step;
-            }
-            sin
-        };
-        let (entry, exit) = (grazing(MEETINGS), grazing(MEETINGS + 3 * self.order));
-        entry.min(if exit > self.from { exit } else { f64::INFINITY }).clamp(self.to, self.to + 0.3)
-    }
-
-    /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
-    fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
-        // fields as (perpendicular, parallel) for incident light of either kind
-        let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
-        for hit in 0..=self.order {
-            let c = MEETINGS + 3 * hit;
-            let (square, _) = self.at(c, sin);
-            let (radius, _) = self.at(c + 1, sin);
-            turn(&mut fields, self.at(c + 2, sin).0);
-            let grazing = Grazing::whole(square, x * radius);
-            let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
-            let f = curved_from_inside(inside, index, &grazing);
-            let through = hit == 0 || hit == self.order;
-            let (perpendicular, parallel) = if through {
-                (f.t_perpendicular, f.t_parallel)
-            } else {
-                (f.r_perpendicular, f.r_parallel)
-            };
-            for field in &mut fields {
-                field[0] *= perpendicular;
-                field[1] *= parallel;
-            }
-        }
-        turn(&mut fields, self.at(MEETINGS + 3 * (self.order + 1), sin).0);
-        let [across, along] = fields;
-        let all = [across[0], along[1], -across[1], -along[0]];
-        all.iter().all(|s| s.is_finite()).then_some(all)
-    }
-}
-
-/// Turn the frame of fields about the ray.
-fn turn(fields: &mut [[Complex64; 2]; 2], angle: f64) {
-    let (sin, cos) = angle.sin_cos();
-    for field in fields {
-        let [a, b] = *field;
-        *field = [a * cos + b * sin, b * cos - a * sin];
-    }
-}
-
-/// All channels of one ray.
-fn row(arc: &Arc, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
-    let meridian = arc.meridian();
-    let (_, growing) = meridian.frame(node.angle);
-    let across = meridian.across();
-    let exit = &node.exit;
-    let impact = exit.reference.dot(growing);
-    let minor = meridian.spread_across(exit, node.angle);
-    let outside = |m: &Meeting| {
-        m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
-    };
-    let (first, last) = (meetings.first()?, meetings.last()?);
-    let path = exit.path + impact * node.angle + outside(first) + outside(last);
-    let spreading = node.angle.sin().abs() / minor.abs();
-    let mut row = vec![impact, path, spreading, last.path - first.path];
-    // frames are (perpendicular, perpendicular × direction)
-    let mut frame = across;
-    for meeting in meetings {
-        let angle = frame_turn(frame, meeting.perpendicular, meeting.direction);
-        row.extend([meeting.cos_squared_outside, meeting.radius, angle]);
-        frame = meeting.perpendicular;
-    }
-    row.push(frame_turn(frame, across, exit.direction));
-    Some(row)
-}
-
-/// Angle by which a frame about a ray must turn for its first axis to become another.
-fn frame_turn(from: Vec3<f64>, to: Vec3<f64>, direction: Vec3<f64>) -> f64 {
-    from.cross(direction).dot(to).atan2(from.dot(to))
-}
-
-/// Samples of the integrand: impacts, paths in units of the radius, four complex elements.
-struct Integrand {
-    impact: Vec<f64>,
-    path: Vec<f64>,
-    parts: [Vec<f64>; 8],
-}
-
-impl Integrand {
-    fn with_capacity(count: usize) -> Self {
-        let column = || Vec::with_capacity(count);
-        Self { impact: column(), path: column(), parts: std::array::from_fn(|_| column()) }
-    }
-
-    fn push(&mut self, impact: f64, path: f64, elements: [Complex64; 4]) {
-        self.impact.push(impact);
-        self.path.push(path);
-        for (k, e) in elements.into_iter().enumerate() {
-            self.parts[2 * k].push(e.re);
-            self.parts[2 * k + 1].push(e.im);
-        }
-    }
-
-    /// Samples of no weight, up to a whole number of lanes.
-    fn fill_lanes(&mut self) {
-        while !self.impact.len().is_multiple_of(LANES) {
-            self.push(0.0, 0.0, [Complex64::default(); 4]);
-        }
-    }
-
-    /// `Σ F exp(ix(L - βϑ - W))`, and the same times β.
-    fn sum(&self, angle: f64, reference: f64, x: f64) -> Sums {
-        let found = sum(self, angle, reference, x);
-        let at = |k: usize| Complex64::new(found[k], found[k + 1]);
-        [std::array::from_fn(|e| at(2 * e)), std::array::from_fn(|e| at(8 + 2 * e))]
-    }
-}
-
-/// Samples handled side by side.
-const LANES: usize = 8;
-
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
-fn sum(integrand: &Integrand, angle: f64, reference: f64, x: f64) -> [f64; 16] {
-    let per_turn = x / TAU;
-    let mut sums = [[0.0; LANES]; 16];
-    let impacts: &[[f64; LANES]] = integrand.impact.as_chunks().0;
-    let paths: &[[f64; LANES]] = integrand.path.as_chunks().0;
-    let parts: [&[[f64; LANES]]; 8] = std::array::from_fn(|c| integrand.parts[c].as_chunks().0);
-    for (block, (impact, path)) in impacts.iter().zip(paths).enumerate() {
-        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
-        for k in 0..LANES {
-            let turns = per_turn * (path[k] - impact[k] * angle - reference);
-            (sin[k], cos[k]) = sin_cos_turns(turns);
-        }
-        for element in 0..4 {
-            let (re, im) = (&parts[2 * element][block], &parts[2 * element + 1][block]);
-            for k in 0..LANES {
-                let a = re[k] * cos[k] - im[k] * sin[k];
-                let b = re[k] * sin[k] + im[k] * cos[k];
-                sums[2 * element][k] += a;
-                sums[2 * element + 1][k] += b;
-                sums[8 + 2 * element][k] += a * impact[k];
-                sums[9 + 2 * element][k] += b * impact[k];
-            }
-        }
-    }
-    sums.map(|lanes| lanes.iter().sum())
 }
