@@ -8,44 +8,12 @@
 use super::fold::{Fold, PAIR_CHANNELS};
 use super::meridian::{GRAZING, Meridian, Node};
 use super::rim::{RimLayout, rim_wave};
-use super::sweep::parabola_slopes;
+use super::segment::{
+    CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
+};
 use crate::math::chebyshev::Chebyshev;
 use crate::shape::Silhouette;
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Numbers at a knot: angle, then
-/// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`, their slopes;
-/// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element);
-/// wave: reference path, its slope, S1 … S4 against it, their slopes by angle.
-pub const CHANNELS: usize = 21;
-/// First channel of amplitudes in a plain knot (S3 and S4 follow at +4).
-pub const PLAIN_AMPLITUDE: usize = 3;
-/// First channel of the slopes of amplitudes by angle in a plain knot and in that of a wave.
-pub const SLOPE: usize = 11;
-/// First channel of g₀ in a pair knot; g₁ follows at +8.
-pub const PAIR_AMPLITUDE: usize = 5;
-
-/// Data at one knot.
-pub type Knot = [f64; CHANNELS];
-
-/// What a segment holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
-    /// One ray per direction; focal lines passed; whether it starts at the axial ray.
-    Plain { focal_lines: u32, from_axis: bool },
-    /// Two rays; sum of their focal lines.
-    Pair { focal_lines: u32 },
-    /// A wave that is no sum of rays, all phases in its amplitudes.
-    Wave,
-}
-
-/// A stretch of an arc.
-#[derive(Clone, Debug)]
-pub struct Segment {
-    pub kind: Kind,
-    /// Angles monotone, ascending or descending.
-    pub knots: Vec<Knot>,
-}
 
 /// Settings shared by all meridians of an order, so that their segments correspond.
 #[derive(Clone, Debug)]

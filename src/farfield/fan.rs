@@ -6,11 +6,10 @@
 //! meridians are traced instead. Orders whose meridians do not correspond (more than two rays
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
-use super::arc::{
-    Arc, ArcLayout, CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment,
-};
+use super::arc::{Arc, ArcLayout};
 use super::meridian::{Meridian, axial_ray};
 use super::rim::{self, RimLayout};
+use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::sweep::{Side, Sums, add_segment};
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;

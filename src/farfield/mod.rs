@@ -19,6 +19,7 @@ pub mod patch;
 pub mod rim;
 mod rim_integrand;
 mod rim_rays;
+pub mod segment;
 pub mod sweep;
 pub mod tabulate;
 

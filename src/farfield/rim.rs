@@ -16,10 +16,11 @@
 //! The integral takes over from single rays with a smooth weight: rays well inside the rim are left
 //! to the plain segments of the meridian, with the weight's complement.
 
-use super::arc::{Arc, CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
+use super::arc::Arc;
 use super::meridian::Node;
 use super::rim_integrand::Sums;
 use super::rim_rays::{RAYS, Rays};
+use super::segment::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 

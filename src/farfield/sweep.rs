@@ -5,7 +5,9 @@
 //! eight parts of S1 … S4 side by side for each; the loops are plain arithmetic over arrays, compiled
 //! for several instruction sets and chosen at run time.
 
-use super::arc::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
+use super::segment::{
+    Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
+};
 use crate::math::airy;
 use crate::math::phase::sin_cos_turns;
 use crate::optics::AmplitudeMatrix;
@@ -265,31 +267,4 @@ fn pair(
             }
         }
     }
-}
-
-/// Slopes of all channels at all knots by angle, from parabolas through neighbours.
-pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
-    let last = knots.len() - 1;
-    if last < 2 {
-        let h = 1.0 / (knots[last][0] - knots[0][0]);
-        return vec![std::array::from_fn(|c| (knots[last][c] - knots[0][c]) * h); last + 1];
-    }
-    (0..=last)
-        .map(|k| {
-            let j = k.clamp(1, last - 1);
-            let [a, b, c] = [&knots[j - 1], &knots[j], &knots[j + 1]];
-            let x = knots[k][0];
-            let (ab, ac, bc) = (a[0] - b[0], a[0] - c[0], b[0] - c[0]);
-            let weights = [
-                (2.0 * x - b[0] - c[0]) / (ab * ac),
-                -(2.0 * x - a[0] - c[0]) / (ab * bc),
-                (2.0 * x - a[0] - b[0]) / (ac * bc),
-            ];
-            let mut slope = [0.0; CHANNELS];
-            for i in 0..CHANNELS {
-                slope[i] = weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i];
-            }
-            slope
-        })
-        .collect()
 }
