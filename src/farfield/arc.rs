@@ -418,6 +418,7 @@ fn pair_knot(fold: &Fold, series: &Chebyshev<PAIR_CHANNELS>, delta: f64) -> Knot
     knot[2] = fold.lit * slope[0];
     knot[3] = value[1];
     knot[4] = fold.lit * slope[1];
-    knot[PAIR_AMPLITUDE..].copy_from_slice(&value[2..]);
+    let amplitudes = &value[2..];
+    knot[PAIR_AMPLITUDE..PAIR_AMPLITUDE + amplitudes.len()].copy_from_slice(amplitudes);
     knot
 }

@@ -10,10 +10,12 @@ use super::arc::{Arc, ArcLayout};
 use super::meridian::{Meridian, axial_ray};
 use super::rim::{self, RimLayout};
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
-use super::sweep::{Side, Sums, add_segment};
+use super::sweep::{Samples, Side, Sums, add_segment};
+use crate::math::fused::multiply_add;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
@@ -112,20 +114,21 @@ impl Fan {
     /// Segment by segment for all azimuths, so that what they are interpolated from stays in cache.
     pub fn columns(&self, theta: &[f64], azimuths: &[f64]) -> Vec<Vec<AmplitudeMatrix>> {
         let x = self.size_parameter;
-        let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(theta.len())).collect();
+        let samples = Samples::new(theta);
+        let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(&samples)).collect();
         for fan in &self.orders {
             for number in 0..fan.meridians[0].len() {
                 let near = fan.meets(number, theta, Side::Near);
                 for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| near) {
                     let segment = fan.segment(number, azimuth);
-                    add_segment(sums, theta, &segment, Side::Near, x);
+                    add_segment(sums, &samples, &segment, Side::Near, x);
                 }
                 let far = fan.meets(number, theta, Side::Far);
                 for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| far) {
                     // the plane of φ + π is the mirror image of that of π - φ
                     let mut segment = fan.segment(number, PI - azimuth).into_owned();
                     mirror(&mut segment);
-                    add_segment(sums, theta, &segment, Side::Far, x);
+                    add_segment(sums, &samples, &segment, Side::Far, x);
                 }
             }
         }
@@ -245,15 +248,35 @@ fn spans(meridians: &[Vec<Segment>]) -> Vec<(f64, f64)> {
 }
 
 /// Weighted sums of knots, channel by channel.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
 fn blend(knots: &mut [Knot], sources: &[&[Knot]; STENCIL], weights: &[Knot; STENCIL]) {
-    for (i, knot) in knots.iter_mut().enumerate() {
+    if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+        blend_with::<true>(knots, sources, weights);
+    } else {
+        blend_with::<false>(knots, sources, weights);
+    }
+}
+
+#[inline(always)]
+fn blend_with<const FMA: bool>(
+    knots: &mut [Knot],
+    sources: &[&[Knot]; STENCIL],
+    weights: &[Knot; STENCIL],
+) {
+    let count = sources.iter().map(|s| s.len()).fold(knots.len(), usize::min);
+    let sources = sources.map(|s| &s[..count]);
+    for (i, knot) in knots[..count].iter_mut().enumerate() {
+        let mut sum = [0.0; CHANNELS];
         for (source, weights) in sources.iter().zip(weights) {
-            let Some(from) = source.get(i) else { continue };
             for c in 0..CHANNELS {
-                knot[c] += weights[c] * from[c];
+                sum[c] = multiply_add::<FMA>(weights[c], source[i][c], sum[c]);
             }
         }
+        *knot = sum;
     }
 }
 

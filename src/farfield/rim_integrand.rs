@@ -1,7 +1,9 @@
 //! The integrand of a rim wave at its samples, and its sums against the waves of a direction.
 
-use crate::math::phase::sin_cos_turns;
+use crate::math::fused::multiply_add;
+use crate::math::phase::sin_cos_turns_with;
 use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -48,8 +50,26 @@ impl Integrand {
 /// Samples handled side by side.
 const LANES: usize = 8;
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
 fn sum(integrand: &Integrand, angle: f64, reference: f64, x: f64) -> [f64; 16] {
+    if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+        sum_with::<true>(integrand, angle, reference, x)
+    } else {
+        sum_with::<false>(integrand, angle, reference, x)
+    }
+}
+
+#[inline(always)]
+fn sum_with<const FMA: bool>(
+    integrand: &Integrand,
+    angle: f64,
+    reference: f64,
+    x: f64,
+) -> [f64; 16] {
     let per_turn = x / TAU;
     let mut sums = [[0.0; LANES]; 16];
     let impacts: &[[f64; LANES]] = integrand.impact.as_chunks().0;
@@ -59,17 +79,19 @@ fn sum(integrand: &Integrand, angle: f64, reference: f64, x: f64) -> [f64; 16] {
         let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
             let turns = per_turn * (path[k] - impact[k] * angle - reference);
-            (sin[k], cos[k]) = sin_cos_turns(turns);
+            (sin[k], cos[k]) = sin_cos_turns_with::<FMA>(turns);
         }
         for element in 0..4 {
             let (re, im) = (&parts[2 * element][block], &parts[2 * element + 1][block]);
             for k in 0..LANES {
-                let a = re[k] * cos[k] - im[k] * sin[k];
-                let b = re[k] * sin[k] + im[k] * cos[k];
+                let a = multiply_add::<FMA>(re[k], cos[k], -im[k] * sin[k]);
+                let b = multiply_add::<FMA>(re[k], sin[k], im[k] * cos[k]);
                 sums[2 * element][k] += a;
                 sums[2 * element + 1][k] += b;
-                sums[8 + 2 * element][k] += a * impact[k];
-                sums[9 + 2 * element][k] += b * impact[k];
+                let sum = &mut sums[8 + 2 * element][k];
+                *sum = multiply_add::<FMA>(a, impact[k], *sum);
+                let sum = &mut sums[9 + 2 * element][k];
+                *sum = multiply_add::<FMA>(b, impact[k], *sum);
             }
         }
     }

@@ -5,7 +5,8 @@
 /// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`, their slopes;
 /// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element);
 /// wave: reference path, its slope, S1 … S4 against it, their slopes by angle.
-pub const CHANNELS: usize = 21;
+/// 21 at most are in use; with 24 a knot fills whole vector registers.
+pub const CHANNELS: usize = 24;
 /// First channel of amplitudes in a plain knot (S3 and S4 follow at +4).
 pub const PLAIN_AMPLITUDE: usize = 3;
 /// First channel of the slopes of amplitudes by angle in a plain knot and in that of a wave.

@@ -1,39 +1,61 @@
 //! The sweep: adding a segment's waves to a column of samples, forward in memory.
 //!
 //! Between two knots path and amplitudes are cubics in the angle. A phase is carried in turns; whole
-//! turns fall away exactly. Sines and cosines are computed for eight samples side by side, then the
-//! eight parts of S1 … S4 side by side for each; the loops are plain arithmetic over arrays, compiled
-//! for several instruction sets and chosen at run time.
+//! turns fall away exactly. Eight samples are computed side by side, part by part of S1 … S4, each
+//! part in a row of its own; the loops are plain arithmetic over arrays, compiled for several
+//! instruction sets and chosen at run time.
 
 use super::segment::{
     Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
 };
 use crate::math::airy;
-use crate::math::phase::sin_cos_turns;
+use crate::math::fused::multiply_add;
+use crate::math::phase::sin_cos_turns_with;
 use crate::optics::AmplitudeMatrix;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Amplitudes of one column by sample: real and imaginary parts of S1 … S4.
+/// Scattering angles of a column (radians, ascending), with room behind them for a last block.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    padded: Vec<f64>,
+    count: usize,
+}
+
+impl Samples {
+    pub fn new(theta: &[f64]) -> Self {
+        let last = theta.last().copied().unwrap_or(0.0);
+        let mut padded = theta.to_vec();
+        padded.resize(theta.len() + LANES, last);
+        Self { padded, count: theta.len() }
+    }
+
+    fn theta(&self) -> &[f64] {
+        &self.padded[..self.count]
+    }
+}
+
+/// Amplitudes of one column: a row over its samples for each real and imaginary part of S1 … S4,
+/// in the order S1, S2, S3, S4, real part first. Each row has room for a last block.
 #[derive(Clone, Debug)]
 pub struct Sums {
-    rows: Vec<[f64; 8]>,
+    rows: [Vec<f64>; 8],
+    count: usize,
 }
 
 impl Sums {
-    pub fn new(samples: usize) -> Self {
-        Self { rows: vec![[0.0; 8]; samples] }
+    pub fn new(samples: &Samples) -> Self {
+        let rows = std::array::from_fn(|_| vec![0.0; samples.padded.len()]);
+        Self { rows, count: samples.count }
     }
 
     /// As amplitude matrices.
     pub fn amplitudes(&self) -> Vec<AmplitudeMatrix> {
-        let matrix = |row: &[f64; 8]| {
-            let at = |k: usize| Complex64::new(row[2 * k], row[2 * k + 1]);
-            AmplitudeMatrix { s1: at(0), s2: at(1), s3: at(2), s4: at(3) }
-        };
-        self.rows.iter().map(matrix).collect()
+        let at = |e: usize, i: usize| Complex64::new(self.rows[2 * e][i], self.rows[2 * e + 1][i]);
+        let matrix = |i| AmplitudeMatrix { s1: at(0, i), s2: at(1, i), s3: at(2, i), s4: at(3, i) };
+        (0..self.count).map(matrix).collect()
     }
 }
 
@@ -49,10 +71,10 @@ const LANES: usize = 8;
 /// Angle within which a sample counts as the axial ray.
 const AXIAL: f64 = 2e-10;
 
-/// Add a segment to the samples `theta` (ascending, radians) on one side of its plane.
+/// Add a segment to the samples on one side of its plane.
 pub fn add_segment(
     sums: &mut Sums,
-    theta: &[f64],
+    samples: &Samples,
     segment: &Segment,
     side: Side,
     size_parameter: f64,
@@ -68,13 +90,25 @@ pub fn add_segment(
         Side::Far => (low / TAU, (high + PI) / TAU),
     };
     for m in from.floor() as i64..=to.ceil() as i64 {
-        sweep(&mut sums.rows, theta, segment, side, TAU * m as f64, size_parameter);
+        sweep(&mut sums.rows, samples, segment, side, TAU * m as f64, size_parameter);
     }
 }
 
 /// One pass over the pieces between knots in the order of the samples, for one whole number of turns.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2+fma"))]
-fn sweep(rows: &mut [[f64; 8]], theta: &[f64], segment: &Segment, side: Side, turn: f64, x: f64) {
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
+fn sweep(
+    rows: &mut [Vec<f64>; 8],
+    samples: &Samples,
+    segment: &Segment,
+    side: Side,
+    turn: f64,
+    x: f64,
+) {
+    let theta = samples.theta();
     let sign = if side == Side::Near { 1.0 } else { -1.0 };
     let knots = &segment.knots;
     let pieces = knots.len() - 1;
@@ -107,24 +141,28 @@ fn sweep(rows: &mut [[f64; 8]], theta: &[f64], segment: &Segment, side: Side, tu
         if begin == end {
             continue;
         }
-        let samples = Samples { theta: &theta[begin..end], sign, turn };
-        let rows = &mut rows[begin..end];
+        let piece = Piece { theta: &samples.padded, begin, end, sign, turn };
         match segment.kind {
             Kind::Plain { .. } | Kind::Wave => {
                 let turns = match segment.kind {
                     Kind::Plain { focal_lines, .. } => -0.25 * f64::from(1 + focal_lines),
                     _ => 0.0,
                 };
-                if target_cfg_f!(target_feature = "fma") {
-                    single::<true>(rows, &samples, &knots[k], &knots[k + 1], x, turns);
+                if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    single::<true>(rows, &piece, &knots[k], &knots[k + 1], x, turns);
                 } else {
-                    single::<false>(rows, &samples, &knots[k], &knots[k + 1], x, turns);
+                    single::<false>(rows, &piece, &knots[k], &knots[k + 1], x, turns);
                 }
             }
             Kind::Pair { focal_lines } => {
                 let turns = -0.25 - 0.125 * f64::from(focal_lines);
                 let slopes = slopes.get_or_insert_with(|| parabola_slopes(knots));
-                pair(rows, &samples, [&knots[k], &knots[k + 1]], &slopes[k..], x, turns);
+                let ends = [&knots[k], &knots[k + 1]];
+                if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    pair::<true>(rows, &piece, ends, &slopes[k..], x, turns);
+                } else {
+                    pair::<false>(rows, &piece, ends, &slopes[k..], x, turns);
+                }
             }
         }
     }
@@ -141,23 +179,32 @@ fn with_axial(low: f64, high: f64, side: Side, falling: bool) -> (f64, f64) {
     (low + (1.0 - end) * AXIAL, high - end * AXIAL)
 }
 
-/// Samples of one piece.
-struct Samples<'a> {
+/// Samples `begin..end` of one piece between two knots.
+struct Piece<'a> {
+    /// All samples of the column, with room behind the last.
     theta: &'a [f64],
+    begin: usize,
+    end: usize,
     sign: f64,
     turn: f64,
 }
 
-impl Samples<'_> {
-    /// Place between the knots, from 0 to 1, of samples from `start` on; beyond the last, 0.
+/// A block of samples side by side.
+type Lanes = [f64; LANES];
+
+impl Piece<'_> {
+    /// Places between the knots, from 0 to 1, of the block of samples from `start` on.
     #[inline(always)]
-    fn places(&self, start: usize, from: f64, inverse: f64) -> [f64; LANES] {
-        let mut t = [0.0; LANES];
-        let count = LANES.min(self.theta.len() - start);
-        for (t, theta) in t.iter_mut().zip(&self.theta[start..start + count]) {
-            *t = (self.sign * theta + self.turn - from) * inverse;
-        }
-        t
+    fn places(&self, start: usize, from: f64, inverse: f64) -> Lanes {
+        let theta = &self.theta[start..start + LANES];
+        std::array::from_fn(|k| (self.sign * theta[k] + self.turn - from) * inverse)
+    }
+
+    /// `scale` for samples of the piece, 0 for those of the block that lie beyond its end.
+    #[inline(always)]
+    fn inside(&self, start: usize, scale: f64) -> Lanes {
+        let live = self.end - start;
+        std::array::from_fn(|k| if k < live { scale } else { 0.0 })
     }
 }
 
@@ -169,22 +216,53 @@ fn hermite(v0: f64, s0: f64, v1: f64, s1: f64) -> [f64; 4] {
 }
 
 #[inline(always)]
-fn cubic(c: &[f64; 4], t: f64) -> f64 {
-    c[0] + t * (c[1] + t * (c[2] + t * c[3]))
+fn cubic<const FMA: bool>(c: &[f64; 4], t: f64) -> f64 {
+    multiply_add::<FMA>(t, multiply_add::<FMA>(t, multiply_add::<FMA>(t, c[3], c[2]), c[1]), c[0])
 }
 
-/// Weights of the values and slopes (per unit of angle) at both knots, `h` radians apart.
+/// Sine and cosine of `turns + per_turn · path`, times `scale`.
 #[inline(always)]
-fn hermite_weights(t: f64, h: f64) -> [f64; 4] {
-    let u = 1.0 - t;
-    [(1.0 + 2.0 * t) * u * u, t * u * u * h, t * t * (3.0 - 2.0 * t), -t * t * u * h]
+fn waves<const FMA: bool>(
+    path: &[f64; 4],
+    t: &Lanes,
+    per_turn: f64,
+    turns: f64,
+    scale: &Lanes,
+) -> (Lanes, Lanes) {
+    let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+    for k in 0..LANES {
+        let phase = per_turn * cubic::<FMA>(path, t[k]) + turns;
+        let (s, c) = sin_cos_turns_with::<FMA>(phase);
+        (sin[k], cos[k]) = (scale[k] * s, scale[k] * c);
+    }
+    (sin, cos)
+}
+
+/// Add `(re + i im)(cos + i sin)` to the block from `start` on of element `e`.
+#[inline(always)]
+fn add_turned<const FMA: bool>(
+    rows: &mut [Vec<f64>; 8],
+    e: usize,
+    start: usize,
+    [re, im]: [&Lanes; 2],
+    sin: &Lanes,
+    cos: &Lanes,
+) {
+    let row = &mut rows[2 * e][start..start + LANES];
+    for k in 0..LANES {
+        row[k] = multiply_add::<FMA>(re[k], cos[k], multiply_add::<FMA>(-im[k], sin[k], row[k]));
+    }
+    let row = &mut rows[2 * e + 1][start..start + LANES];
+    for k in 0..LANES {
+        row[k] = multiply_add::<FMA>(re[k], sin[k], multiply_add::<FMA>(im[k], cos[k], row[k]));
+    }
 }
 
 /// One wave per sample.
 #[inline(always)]
 fn single<const FMA: bool>(
-    rows: &mut [[f64; 8]],
-    samples: &Samples,
+    rows: &mut [Vec<f64>; 8],
+    piece: &Piece,
     a: &Knot,
     b: &Knot,
     x: f64,
@@ -192,49 +270,27 @@ fn single<const FMA: bool>(
 ) {
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
-    let per_turn = x / TAU;
-    let [va, sa, vb, sb] =
-        [part(a, PLAIN_AMPLITUDE), part(a, SLOPE), part(b, PLAIN_AMPLITUDE), part(b, SLOPE)];
-    for (block, rows) in rows.chunks_mut(LANES).enumerate() {
-        let t = samples.places(LANES * block, a[0], 1.0 / h);
-        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
-        for k in 0..LANES {
-            let (s, c) = sin_cos_turns(per_turn * cubic(&path, t[k]) + turns);
-            (sin[k], cos[k]) = (x * s, x * c);
-        }
-        for (k, row) in rows.iter_mut().enumerate() {
-            let w = hermite_weights(t[k], h);
-            let mut v = [0.0; 8];
-            for c in 0..8 {
-                let values = madd::<FMA>(w[0], va[c], w[2] * vb[c]);
-                v[c] = madd::<FMA>(w[1], sa[c], madd::<FMA>(w[3], sb[c], values));
-            }
-            for e in 0..4 {
-                let (re, im) = (v[2 * e], v[2 * e + 1]);
-                row[2 * e] = madd::<FMA>(re, cos[k], madd::<FMA>(-im, sin[k], row[2 * e]));
-                row[2 * e + 1] = madd::<FMA>(re, sin[k], madd::<FMA>(im, cos[k], row[2 * e + 1]));
-            }
+    let cubics: [[f64; 4]; 8] = std::array::from_fn(|c| {
+        let (value, slope) = (PLAIN_AMPLITUDE + c, SLOPE + c);
+        hermite(a[value], a[slope] * h, b[value], b[slope] * h)
+    });
+    for start in (piece.begin..piece.end).step_by(LANES) {
+        let t = piece.places(start, a[0], 1.0 / h);
+        let scale = piece.inside(start, x);
+        let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &scale);
+        for e in 0..4 {
+            let re: Lanes = std::array::from_fn(|k| cubic::<FMA>(&cubics[2 * e], t[k]));
+            let im: Lanes = std::array::from_fn(|k| cubic::<FMA>(&cubics[2 * e + 1], t[k]));
+            add_turned::<FMA>(rows, e, start, [&re, &im], &sin, &cos);
         }
     }
 }
 
-/// `a b + c`, in one instruction where the machine has it (elsewhere that would be a slow call).
-#[inline(always)]
-fn madd<const FMA: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FMA { a.mul_add(b, c) } else { a * b + c }
-}
-
-/// Eight channels of a knot from one on.
-#[inline(always)]
-fn part(knot: &Knot, first: usize) -> [f64; 8] {
-    std::array::from_fn(|c| knot[first + c])
-}
-
 /// The uniform Airy formula for two rays.
 #[inline(always)]
-fn pair(
-    rows: &mut [[f64; 8]],
-    samples: &Samples,
+fn pair<const FMA: bool>(
+    rows: &mut [Vec<f64>; 8],
+    piece: &Piece,
     [a, b]: [&Knot; 2],
     slopes: &[Knot],
     x: f64,
@@ -243,28 +299,28 @@ fn pair(
     let sixth = x.powf(1.0 / 6.0);
     let two_thirds = sixth.powi(4);
     let (scale0, scale1) = (x * PI.sqrt() * sixth, x * PI.sqrt() / sixth);
-    let per_turn = x / TAU;
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
     let zeta = hermite(a[3], a[4] * h, b[3], b[4] * h);
-    for (block, rows) in rows.chunks_mut(LANES).enumerate() {
-        let t = samples.places(LANES * block, a[0], 1.0 / h);
-        for (k, row) in rows.iter_mut().enumerate() {
-            let (s, c) = sin_cos_turns(per_turn * cubic(&path, t[k]) + turns);
-            let (ai, slope) = airy::ai(-two_thirds * cubic(&zeta, t[k]));
-            let (w0, w1) = (scale0 * ai, scale1 * slope);
-            let w = hermite_weights(t[k], h);
-            let g = |channel: usize| {
-                let i = PAIR_AMPLITUDE + channel;
-                w[0] * a[i] + w[1] * slopes[0][i] + w[2] * b[i] + w[3] * slopes[1][i]
-            };
-            for e in 0..4 {
-                // w0 g₀ + i w1 g₁
-                let re = w0 * g(2 * e) - w1 * g(9 + 2 * e);
-                let im = w0 * g(2 * e + 1) + w1 * g(8 + 2 * e);
-                row[2 * e] += re * c - im * s;
-                row[2 * e + 1] += re * s + im * c;
-            }
+    let cubics: [[f64; 4]; 16] = std::array::from_fn(|c| {
+        let i = PAIR_AMPLITUDE + c;
+        hermite(a[i], slopes[0][i] * h, b[i], slopes[1][i] * h)
+    });
+    for start in (piece.begin..piece.end).step_by(LANES) {
+        let t = piece.places(start, a[0], 1.0 / h);
+        let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &piece.inside(start, 1.0));
+        let (mut w0, mut w1) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES.min(piece.end - start) {
+            let (ai, slope) = airy::ai(-two_thirds * cubic::<FMA>(&zeta, t[k]));
+            (w0[k], w1[k]) = (scale0 * ai, scale1 * slope);
+        }
+        for e in 0..4 {
+            // w0 g₀ + i w1 g₁
+            let g = |c: usize, k: usize| cubic::<FMA>(&cubics[c], t[k]);
+            let (r, i) = (2 * e, 2 * e + 1);
+            let re: Lanes = std::array::from_fn(|k| w0[k] * g(r, k) - w1[k] * g(8 + i, k));
+            let im: Lanes = std::array::from_fn(|k| w0[k] * g(i, k) + w1[k] * g(8 + r, k));
+            add_turned::<FMA>(rows, e, start, [&re, &im], &sin, &cos);
         }
     }
 }

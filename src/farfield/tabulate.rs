@@ -105,18 +105,19 @@ impl Tabulator<'_> {
                 lines.map(|(&phi, column)| self.line(column, phi, &cells, peak.as_ref()))
             })
             .collect();
-        let weights = axes.solid_angle();
+        let weights = axes.solid_angle_factors();
         let elements = self.quantity.elements();
         let mut values = Array3::<f32>::zeros((elements, axes.theta.len(), axes.phi.len()));
         fill(values.view_mut(), &lines, places);
-        let (factor, sum_before_peak, peak_share) = self.close(&lines, places, &weights, &values);
+        let weights = (&weights.0[..], &weights.1[..]);
+        let (factor, sum_before_peak, peak_share) = self.close(&lines, places, weights, &values);
         self.write_forward(&mut values, &lines, places, factor);
         let caustic_order = lines.iter().any(|l| !l.caustic_order.is_empty()).then(|| {
             Array2::from_shape_fn((axes.theta.len(), axes.phi.len()), |(i, j)| {
                 lines[places[j].0].caustic_order.get(i).copied().unwrap_or(0)
             })
         });
-        let asymmetry = asymmetry(&values, &weights, &axes.theta);
+        let asymmetry = asymmetry(&values, weights, &axes.theta);
         Values { values, caustic_order, sum_before_peak, peak_share, asymmetry }
     }
 
@@ -224,17 +225,20 @@ impl Tabulator<'_> {
         &self,
         lines: &[Line],
         places: &[(usize, bool)],
-        weights: &Array2<f64>,
+        (theta_weights, phi_weights): (&[f64], &[f64]),
         values: &Array3<f32>,
     ) -> (f64, f64, f64) {
         let scale = self.scale();
-        let peak = values.index_axis(Axis(0), 0);
-        let rest: f64 = peak.iter().zip(weights).map(|(&v, w)| f64::from(v) * w).sum();
+        let rings = ring_powers(values, phi_weights);
+        let rest: f64 = rings.iter().zip(theta_weights).map(|(power, w)| power * w).sum();
         let forward = |factor: f64| -> f64 {
             let mut sum = 0.0;
             for (j, (line, _)) in places.iter().enumerate() {
                 for (i, sample) in lines[*line].forward.iter().enumerate() {
-                    sum += weights[[i, j]] * scale * self.forward_mueller(sample, factor)[0][0];
+                    sum += theta_weights[i]
+                        * phi_weights[j]
+                        * scale
+                        * self.forward_mueller(sample, factor)[0][0];
                 }
             }
             sum
@@ -243,7 +247,8 @@ impl Tabulator<'_> {
         let with = forward(1.0);
         let sum_before_peak = rest + with;
         let covers_sphere = {
-            let total: f64 = weights.sum();
+            let sum = |weights: &[f64]| weights.iter().sum::<f64>();
+            let total = sum(theta_weights) * sum(phi_weights);
             (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
         };
         let share = if self.diffraction.is_some() { 1.0 / (1.0 + self.scattered) } else { 0.0 };
@@ -302,12 +307,25 @@ fn fill(mut values: ArrayViewMut3<f32>, lines: &[Line], places: &[(usize, bool)]
     }
 }
 
+/// Sum of the first element over azimuth with these weights, per θ.
+fn ring_powers(values: &Array3<f32>, phi_weights: &[f64]) -> Vec<f64> {
+    let rows = values.index_axis(Axis(0), 0);
+    let sum = |row: ndarray::ArrayView1<f32>| -> f64 {
+        row.iter().zip(phi_weights).map(|(&v, w)| w * f64::from(v)).sum()
+    };
+    rows.axis_iter(Axis(0)).into_par_iter().map(sum).collect()
+}
+
 /// Mean cosine of the scattering angle over the samples.
-fn asymmetry(values: &Array3<f32>, weights: &Array2<f64>, theta: &[f64]) -> f64 {
+fn asymmetry(
+    values: &Array3<f32>,
+    (theta_weights, phi_weights): (&[f64], &[f64]),
+    theta: &[f64],
+) -> f64 {
     let (mut sum, mut cosine) = (0.0, 0.0);
-    let first = values.index_axis(Axis(0), 0);
-    for ((row, weights), theta) in first.rows().into_iter().zip(weights.rows()).zip(theta) {
-        let power: f64 = row.iter().zip(weights).map(|(&v, w)| w * f64::from(v)).sum();
+    let rings = ring_powers(values, phi_weights);
+    for ((ring, weight), theta) in rings.iter().zip(theta_weights).zip(theta) {
+        let power = ring * weight;
         sum += power;
         cosine += power * theta.cos();
     }

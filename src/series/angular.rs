@@ -22,6 +22,7 @@
 //! Angles run in SIMD lanes, a block of lanes is carried over a chunk of orders whose
 //! coefficients stay in the first-level cache, and its state is kept between chunks.
 
+use crate::math::fused::multiply_add;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use num_complex::Complex64;
@@ -192,12 +193,6 @@ fn advance_blocks<const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
         }
         *block = state;
     }
-}
-
-/// `a b + c`, in one rounding where the machine has it (and never by a library call).
-#[inline(always)]
-fn multiply_add<const FMA: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FMA { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// Add one order and move the recurrence to the next; `parity` is (-1)^{n+1}.
