@@ -26,7 +26,7 @@ pub struct ArcLayout {
     pub folds: Vec<(f64, f64)>,
     /// Knots per radian of exit angle.
     pub density: f64,
-    /// Knots of each segment; empty while the layout is being found.
+    /// Pieces of each plain segment; empty while the layout is being found.
     pub knots: Vec<usize>,
     pub size_parameter: f64,
     /// Where an integral takes over from rays near the rim.
@@ -196,22 +196,31 @@ impl<'a> Arc<'a> {
         found
     }
 
-    /// Cut into segments. `None` where a ray cannot be found.
-    pub fn segments(&self, layout: &ArcLayout) -> Option<Vec<Segment>> {
-        let mut segments = Vec::new();
+    /// The rays at both ends of each plain segment. `None` where one cannot be found.
+    pub fn ends(&self, layout: &ArcLayout) -> Option<Vec<[Node; 2]>> {
+        let mut ends = Vec::new();
         let mut fold_number = 0;
-        for (plain_count, pair) in self.landmarks.windows(2).enumerate() {
+        for pair in self.landmarks.windows(2) {
             let before_fold = fold_number;
-            if let Landmark::Fold(fold) = &pair[0] {
-                let (dark, reach) = *layout.folds.get(fold_number)?;
-                segments.push(self.pair_segment(fold, dark, reach, layout)?);
-                fold_number += 1;
-            }
+            fold_number += usize::from(matches!(pair[0], Landmark::Fold(_)));
             let edge = |number: usize| layout.folds.get(number).map(|f| f.1);
             let from = self.edge(&pair[0], edge(before_fold), layout)?;
             let to = self.edge(&pair[1], edge(fold_number), layout)?;
-            let count = layout.knots.get(plain_count).copied();
-            segments.push(self.plain_segment(&pair[0], from, to, count, layout)?);
+            ends.push([self.find(from, true)?, self.find(to, false)?]);
+        }
+        Some(ends)
+    }
+
+    /// Cut into segments between the ends found before. `None` where a ray cannot be found.
+    pub fn segments(&self, layout: &ArcLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
+        let mut segments = Vec::new();
+        let mut reaches = layout.folds.iter();
+        for ((pair, ends), count) in self.landmarks.windows(2).zip(ends).zip(&layout.knots) {
+            if let Landmark::Fold(fold) = &pair[0] {
+                let (dark, reach) = *reaches.next()?;
+                segments.push(self.pair_segment(fold, dark, reach, layout)?);
+            }
+            segments.push(self.plain_segment([&pair[0], &pair[1]], ends, *count, layout)?);
         }
         if let Some(rim) = &layout.rim {
             segments.push(rim_wave(self, rim, layout.size_parameter)?);
@@ -247,18 +256,15 @@ impl<'a> Arc<'a> {
         Some(Segment { kind: Kind::Pair { focal_lines: fold.focal_lines }, knots })
     }
 
+    /// One ray per direction between two landmarks, at `count + 1` knots.
     fn plain_segment(
         &self,
-        start: &Landmark,
-        from: Edge,
-        to: Edge,
-        count: Option<usize>,
+        [start, end]: [&Landmark; 2],
+        [a, b]: &[Node; 2],
+        count: usize,
         layout: &ArcLayout,
     ) -> Option<Segment> {
-        let ends = matches!(to, Edge::Last(_));
-        let (a, b) = (self.find(from, true)?, self.find(to, false)?);
-        let length = (b.angle - a.angle).abs();
-        let count = count.unwrap_or(4 + (layout.density * length).ceil() as usize);
+        let ends = matches!(end, Landmark::End(_));
         let mut knots = Vec::with_capacity(count + 1);
         let mut focal_lines = a.exit.focal_lines;
         for k in 0..=count {
@@ -266,9 +272,9 @@ impl<'a> Arc<'a> {
             // towards the rim or total reflection the exit angle runs like a square root
             let share = if ends { share * (2.0 - share) } else { share };
             let node = if k == 0 {
-                a
+                *a
             } else if k == count {
-                b
+                *b
             } else {
                 self.interpolated(a.alpha + share * (b.alpha - a.alpha))?
             };
@@ -296,6 +302,11 @@ impl<'a> Arc<'a> {
         [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter().find_map(|s| {
             self.meridian.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
         })
+    }
+
+    /// Pieces between knots that a plain segment needs.
+    pub fn pieces(ends: &[Node; 2], density: f64) -> usize {
+        4 + (density * (ends[1].angle - ends[0].angle).abs()).ceil() as usize
     }
 
     /// The ray at an edge of a plain segment.

@@ -7,7 +7,7 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
 use super::arc::{Arc, ArcLayout};
-use super::meridian::{Meridian, axial_ray};
+use super::meridian::{Meridian, Node, axial_ray};
 use super::rim::{self, RimLayout};
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::sweep::{Samples, Side, Sums, add_segment};
@@ -420,24 +420,21 @@ fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, 
 
 /// All segments of all meridians, with common numbers of knots.
 fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
-    let segments = |layout: &ArcLayout| -> Vec<Option<Vec<Segment>>> {
-        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.segments(layout))).collect()
+    type Ends = Vec<[Node; 2]>;
+    let ends: Vec<Option<Ends>> =
+        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect();
+    let plain_count = ends.iter().flatten().next()?.len();
+    let pieces = |s: usize| {
+        ends.iter().flatten().map(|e| Arc::pieces(&e[s], layout.density)).max().unwrap_or(0)
     };
-    let first = segments(layout);
-    let template: &Vec<Segment> = first.iter().flatten().next()?;
-    let longest = |s: usize| first.iter().flatten().map(|m| m[s].knots.len()).max().unwrap_or(0);
-    let plain = |s: &usize| matches!(template[*s].kind, Kind::Plain { .. });
-    let numbers = 0..template.len();
-    let knots: Vec<usize> = numbers.filter(plain).map(|s| longest(s) - 1).collect();
-    let same = |m: &Vec<Segment>| m.iter().enumerate().all(|(s, x)| x.knots.len() == longest(s));
-    let same_kind = |m: &Vec<Segment>| m.iter().zip(template).all(|(a, b)| a.kind == b.kind);
-    let keep_kind = |m: Option<Vec<Segment>>| m.filter(same_kind);
-    if first.iter().flatten().all(same) {
-        let template_kept = first.iter().cloned().map(keep_kind).collect();
-        return fill_missing(template_kept);
-    }
-    let again = segments(&ArcLayout { knots, ..layout.clone() });
-    fill_missing(again.into_iter().map(keep_kind).collect())
+    let layout = ArcLayout { knots: (0..plain_count).map(pieces).collect(), ..layout.clone() };
+    let segments = |(arc, ends): (&Option<Arc>, &Option<Ends>)| -> Option<Vec<Segment>> {
+        arc.as_ref()?.segments(&layout, ends.as_ref()?)
+    };
+    let cut: Vec<Option<Vec<Segment>>> = arcs.par_iter().zip(&ends).map(segments).collect();
+    let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
+    let same_kind = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(template.iter().copied());
+    fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())
 }
 
 /// Fill meridians that were not found from the nearest on both sides. `None` when too many or an
