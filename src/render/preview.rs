@@ -322,10 +322,12 @@ fn within(range: &Range<f64>, share: f64) -> f64 {
 
 /// Powers of ten that hold the positive values from a low quantile up to `top`, padded.
 fn log_range(values: impl Iterator<Item = f64>, top: f64) -> Range<f64> {
-    let mut logs: Vec<f64> = values.filter(|v| *v > 0.0 && v.is_finite()).map(f64::log10).collect();
-    logs.sort_by(f64::total_cmp);
-    let Some(last) = logs.len().checked_sub(1) else { return -1.0..1.0 };
-    let at = |quantile: f64| logs[(quantile * last as f64).round() as usize];
+    let mut values: Vec<f64> = values.filter(|v| *v > 0.0 && v.is_finite()).collect();
+    let Some(last) = values.len().checked_sub(1) else { return -1.0..1.0 };
+    let mut at = |quantile: f64| {
+        let rank = (quantile * last as f64).round() as usize;
+        values.select_nth_unstable_by(rank, f64::total_cmp).1.log10()
+    };
     let (low, high) = (at(OFF_SCALE), at(top));
     let pad = (0.03 * (high - low)).max(0.1);
     low - pad..high + pad
