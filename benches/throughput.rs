@@ -66,8 +66,13 @@ fn column_rate(shape: &Shape, index: Complex64, size: f64) {
     let tracer = Tracer::new(shape, index, size, 3).with_curved_interface(size);
     let azimuths: Vec<f64> = (0..=180).map(|i| f64::from(i).to_radians()).collect();
     let orders = [0, 1, 2, 3];
-    let settings =
-        FanSettings { size_parameter: size, orders: &orders, tolerance: 0.01, azimuths: &azimuths };
+    let settings = FanSettings {
+        size_parameter: size,
+        orders: &orders,
+        tolerance: 0.01,
+        diffraction: false,
+        azimuths: &azimuths,
+    };
     let start = Instant::now();
     let far_field = FarField::meridians(&tracer, &settings);
     println!("meridians of 4 orders, all cores: {:.2} s", start.elapsed().as_secs_f64());

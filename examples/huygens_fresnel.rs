@@ -78,8 +78,13 @@ fn sphere() -> Result<(), Box<dyn std::error::Error>> {
 
 /// Amplitudes of the ray engine, one order.
 fn engine(tracer: &Tracer, x: f64, order: u32, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
-    let settings =
-        FanSettings { size_parameter: x, orders: &[order], tolerance: 0.01, azimuths: &[phi] };
+    let settings = FanSettings {
+        size_parameter: x,
+        orders: &[order],
+        tolerance: 0.01,
+        diffraction: false,
+        azimuths: &[phi],
+    };
     let far_field = FarField::meridians(tracer, &settings);
     let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, phi)).collect();
     if !far_field.irregular().is_empty() {

@@ -10,7 +10,7 @@ use crate::farfield::patch;
 use crate::farfield::tabulate::{Tabulator, Values};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
-use crate::phase_table::{Axes, EnergyBudget, Slab, TableHeader};
+use crate::phase_table::{Axes, EnergyBudget, ForwardPeak, Slab, TableHeader};
 use crate::plan::{Engine, Plan, PlanError, Symmetry};
 use crate::scene::{Particle, Scene};
 use crate::series::SeriesError;
@@ -80,7 +80,8 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
-    let far_field = far_field(plan, index, size_parameter, &scene.phi);
+    let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
+    let far_field = far_field(plan, index, size_parameter, &scene.phi, in_table);
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
     let tabulator = Tabulator {
@@ -91,7 +92,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         interference: scene.interference,
         filter: (scene.diffraction == crate::scene::Diffraction::Gaussian)
             .then(|| crate::farfield::gaussian_filter::standard_deviation(plan.radius)),
-        diffraction: plan.forward_diffraction.then(|| far_field.silhouette()),
+        diffraction: plan.forward_diffraction.then(|| far_field.forward_wave()),
         scattered: 1.0 - budget.absorbed,
         silhouette_area: far_field.silhouette().area(),
     };
@@ -123,7 +124,7 @@ pub fn scatter(
     directions: &[(f64, f64)],
 ) -> Vec<AmplitudeMatrix> {
     let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
-    let far_field = far_field(plan, index, size_parameter, &azimuths);
+    let far_field = far_field(plan, index, size_parameter, &azimuths, plan.forward_diffraction);
     far_field.scatter(directions, plan.forward_diffraction)
 }
 
@@ -187,12 +188,14 @@ fn energy(
     })
 }
 
-/// Trace, and make the far field ready for columns and directions.
+/// Trace, and make the far field ready for columns and directions, with forward diffraction joined
+/// to order 0 where asked.
 fn far_field<'a>(
     plan: &'a Plan,
     index: Complex64,
     size_parameter: f64,
     azimuths: &[f64],
+    diffraction: bool,
 ) -> FarField<'a> {
     let last = plan.orders.iter().copied().max().unwrap_or(0);
     let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
@@ -202,6 +205,7 @@ fn far_field<'a>(
             size_parameter,
             orders: &plan.orders,
             tolerance: plan.tolerance,
+            diffraction,
             azimuths: &azimuths,
         };
         let tracer = tracer.with_curved_interface(size_parameter);

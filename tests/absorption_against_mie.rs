@@ -48,13 +48,12 @@ fn error(found: &[f64], exact: &[f64]) -> f64 {
 #[test]
 fn all_orders_are_no_worse_than_without_absorption() {
     let plan = plan((0..=last_order(1.333, 0.01)).collect(), true);
-    // 10–15° is told apart: there external reflection beside diffraction is off by 1 to 10 % in
-    // itself, which transmission outshines in a clear sphere and not in a dark one.
-    for (name, theta, known) in [
-        ("0.5–10°", grid(0.5, 10.0, 0.02), 1.5),
-        ("10–15°", grid(10.0, 15.0, 0.02), 7.0),
-        ("15–165°", grid(15.0, 165.0, 0.05), 1.5),
-        ("120–150°", grid(120.0, 150.0, 0.02), 1.5),
+    for (name, theta) in [
+        ("10–165°", grid(10.0, 165.0, 0.05)),
+        ("0.5–10°", grid(0.5, 10.0, 0.02)),
+        ("10–15°", grid(10.0, 15.0, 0.02)),
+        ("15–165°", grid(15.0, 165.0, 0.05)),
+        ("120–150°", grid(120.0, 150.0, 0.02)),
     ] {
         let errors: Vec<f64> = EXTINCTIONS
             .iter()
@@ -67,7 +66,7 @@ fn all_orders_are_no_worse_than_without_absorption() {
             .collect();
         println!("{name}: k = {EXTINCTIONS:?}: {errors:.4?}");
         for (k, found) in EXTINCTIONS.iter().zip(&errors) {
-            assert!(*found <= known * errors[0], "{name} k {k:e}: {found} clear {}", errors[0]);
+            assert!(*found <= 1.5 * errors[0], "{name} k {k:e}: {found} clear {}", errors[0]);
         }
     }
 }

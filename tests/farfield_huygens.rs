@@ -80,8 +80,13 @@ fn primary_bow_of_a_raindrop() {
         for (from, to, step) in [(135.0, 138.0, 0.5), (138.0, 147.5, 0.5)] {
             let theta = angles(from, to, step);
             let waves = HuygensFresnel::new(x, 2).amplitudes(&tracer, &directions(&theta, phi));
-            let settings =
-                FanSettings { size_parameter: x, orders: &[2], tolerance: 0.01, azimuths: &[phi] };
+            let settings = FanSettings {
+                size_parameter: x,
+                orders: &[2],
+                tolerance: 0.01,
+                diffraction: false,
+                azimuths: &[phi],
+            };
             let single: Vec<(f64, f64)> = theta.iter().map(|&t| (t, phi)).collect();
             let found = FarField::meridians(&tracer, &settings).scatter(&single, false);
             check(azimuth, (from, to), &found, &waves);

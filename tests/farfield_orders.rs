@@ -26,7 +26,8 @@ fn rays(
     let shape = Shape::sphere();
     let last = orders.iter().copied().max().unwrap();
     let tracer = Tracer::new(&shape, m, x, last).with_curved_interface(x);
-    let settings = FanSettings { size_parameter: x, orders, tolerance: 0.01, azimuths: &[0.4] };
+    let settings =
+        FanSettings { size_parameter: x, orders, tolerance: 0.01, diffraction, azimuths: &[0.4] };
     let far_field = FarField::meridians(&tracer, &settings);
     assert!(far_field.irregular().is_empty());
     let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, 0.4)).collect();
@@ -59,6 +60,40 @@ fn one_order_against_its_debye_term() {
         let s2 = l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1));
         println!("p = {p}, x = {x}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %", 100.0 * s1, 100.0 * s2);
         assert!(s1 <= bound1 && s2 <= bound2, "p = {p}, x = {x}: S1 {s1}, S2 {s2}");
+    }
+}
+
+/// Diffraction and external reflection, joined at the edge of the shadow, against the sum of the
+/// series' two terms (which do not converge one by one).
+#[test]
+fn edge_wave_against_the_debye_series() {
+    let cases = [
+        (20.0, 1.333, 0.0, 100.0, 0.009),
+        (100.0, 1.333, 0.0, 10.0, 0.0005),
+        (100.0, 1.333, 10.0, 60.0, 0.008),
+        (100.0, 1.333, 60.0, 150.0, 0.045),
+        (1000.0, 1.333, 0.0, 10.0, 0.0005),
+        (5000.0, 1.333, 0.0, 1.0, 0.0005),
+        (5000.0, 1.333, 1.0, 15.0, 0.001),
+        (5000.0, 1.333, 15.0, 80.0, 0.005),
+        (50000.0, 1.333, 0.1, 10.0, 0.0005),
+        (5000.0, 1.1, 1.0, 15.0, 0.001),
+        (5000.0, 2.0, 1.0, 15.0, 0.0012),
+    ];
+    for (x, index, from, to, bound) in cases {
+        let m = Complex64::new(index, 0.0);
+        let theta = angles(from, to, 0.02);
+        let found = rays(x, m, &[0], true, &theta);
+        let terms = [Term::Order(0), Term::Diffraction];
+        let exact = DebyeSeries::new(x, m).unwrap().sum_parallel(&terms, &theta);
+        let s1 = l2(found.iter().map(|s| s.s1), exact.iter().map(|e| e.0));
+        let s2 = l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1));
+        println!(
+            "x = {x}, n = {index}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %",
+            100.0 * s1,
+            100.0 * s2
+        );
+        assert!(s1 <= bound && s2 <= bound, "x = {x}, {from}–{to}: S1 {s1}, S2 {s2}");
     }
 }
 

@@ -11,8 +11,10 @@ use super::rim::{RimLayout, rim_wave};
 use super::segment::{
     CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
 };
+use super::taper::Taper;
 use crate::math::chebyshev::Chebyshev;
 use crate::shape::Silhouette;
+use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Settings shared by all meridians of an order, so that their segments correspond.
@@ -31,6 +33,8 @@ pub struct ArcLayout {
     pub size_parameter: f64,
     /// Where an integral takes over from rays near the rim.
     pub rim: Option<RimLayout>,
+    /// Where the edge wave takes over from reflected rays, by the cosine of the grazing angle.
+    pub edge: Option<Taper>,
 }
 
 /// Landmarks along a meridian.
@@ -394,8 +398,10 @@ impl<'a> Arc<'a> {
     fn plain_knot(&self, node: &Node, layout: &ArcLayout) -> Knot {
         let (_, growing) = self.meridian.frame(node.angle);
         let transfer = self.meridian.transfer(&node.exit, node.angle);
-        let rim = layout.rim.as_ref();
-        let share = rim.map_or(1.0, |rim| 1.0 - rim.weight(node.alpha.sin()));
+        let rim = layout.rim.as_ref().map(|rim| rim.weight(node.alpha.sin()));
+        let edge =
+            layout.edge.map(|edge| reflected_share(&edge, node.angle, layout.size_parameter));
+        let share = edge.unwrap_or_else(|| (1.0 - rim.unwrap_or(0.0)).into());
         // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
         // that focus at infinity, as about the axis for indices of 2 and 4.
         let spread = self.bounded_spread(node).max(4.0 / layout.size_parameter.powi(2));
@@ -405,11 +411,26 @@ impl<'a> Arc<'a> {
         knot[1] = node.exit.path;
         knot[2] = -node.exit.reference.dot(growing);
         for (k, s) in [transfer.s1, transfer.s2, transfer.s3, transfer.s4].into_iter().enumerate() {
-            knot[PLAIN_AMPLITUDE + 2 * k] = s.re * size;
-            knot[PLAIN_AMPLITUDE + 2 * k + 1] = s.im * size;
+            let amplitude = s * size;
+            knot[PLAIN_AMPLITUDE + 2 * k] = amplitude.re;
+            knot[PLAIN_AMPLITUDE + 2 * k + 1] = amplitude.im;
         }
         knot
     }
+}
+
+/// What the edge wave leaves to a ray reflected by an angle: the complement of its weight, with the
+/// next term of stationary phase, since the weight changes over few Fresnel zones.
+fn reflected_share(edge: &Taper, angle: f64, x: f64) -> Complex64 {
+    let cos = (0.5 * angle).cos();
+    let [weight, slope, bend] = edge.with_derivatives(cos);
+    if weight == 0.0 || weight == 1.0 {
+        return (1.0 - weight).into();
+    }
+    // the phase x (L(β) - βϑ) of a sphere: second derivative, and its own relative slope
+    let sin = (1.0 - cos * cos).sqrt();
+    let (second, relative) = (-2.0 / sin, cos / (sin * sin));
+    Complex64::new(1.0 - weight, (relative * slope - bend) / (2.0 * x * second))
 }
 
 /// Where a plain segment begins or ends.

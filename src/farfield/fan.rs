@@ -7,6 +7,8 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
 use super::arc::{Arc, ArcLayout};
+use super::edge::EdgeWave;
+use super::forward_diffraction::ForwardDiffraction;
 use super::meridian::{Meridian, Node, axial_ray};
 use super::rim::{self, RimLayout};
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
@@ -24,6 +26,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Fan {
     size_parameter: f64,
     orders: Vec<OrderFan>,
+    edge: Option<EdgeWave>,
     /// Orders that this method does not represent.
     pub irregular: Vec<u32>,
 }
@@ -54,6 +57,8 @@ pub struct FanSettings<'a> {
     pub size_parameter: f64,
     pub orders: &'a [u32],
     pub tolerance: f64,
+    /// Whether forward diffraction goes with order 0, joined by the edge wave.
+    pub diffraction: bool,
     /// Azimuths that will be asked for (radians); few of them are traced directly.
     pub azimuths: &'a [f64],
 }
@@ -97,16 +102,27 @@ fn axis_gaps(order: u32, tangle: f64, rim: bool) -> Vec<f64> {
 }
 
 impl Fan {
-    /// Trace all meridians.
-    pub fn new(tracer: &Tracer, settings: &FanSettings) -> Self {
+    /// Trace all meridians of a particle with this shadow.
+    pub fn new(tracer: &Tracer, settings: &FanSettings, shadow: &ForwardDiffraction) -> Self {
+        let joined = settings.diffraction && settings.orders.contains(&0);
+        let edge = joined.then(|| EdgeWave::new(tracer, shadow, settings.size_parameter)).flatten();
         let fans: Vec<(u32, Option<OrderFan>)> = settings
             .orders
             .par_iter()
-            .map(|&order| (order, OrderFan::new(tracer, order, settings)))
+            .map(|&order| {
+                let edge = edge.as_ref().filter(|_| order == 0);
+                (order, OrderFan::new(tracer, order, settings, edge))
+            })
             .collect();
-        let irregular = fans.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
+        let irregular: Vec<u32> = fans.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
         let orders = fans.into_iter().filter_map(|f| f.1).collect();
-        Self { size_parameter: settings.size_parameter, orders, irregular }
+        let edge = edge.filter(|_| !irregular.contains(&0));
+        Self { size_parameter: settings.size_parameter, orders, edge, irregular }
+    }
+
+    /// The edge wave, if diffraction and order 0 are joined.
+    pub fn edge(&self) -> Option<&EdgeWave> {
+        self.edge.as_ref()
     }
 
     /// Amplitudes at samples θ (ascending) of some azimuths in [0, π], without forward diffraction.
@@ -148,13 +164,24 @@ impl Fan {
 }
 
 impl OrderFan {
-    fn new(tracer: &Tracer, order: u32, settings: &FanSettings) -> Option<Self> {
+    fn new(
+        tracer: &Tracer,
+        order: u32,
+        settings: &FanSettings,
+        edge: Option<&EdgeWave>,
+    ) -> Option<Self> {
         let centre = axial_ray(tracer, order);
         let azimuths = azimuths(tracer, settings);
         let steps = if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
         let places = azimuths.places(settings, steps);
         // knots per radian at 1 %: the strongest orders have more
-        let density = if order <= 2 { 36.0 } else { 16.0 };
+        let density = if order == 0 && edge.is_some() {
+            120.0
+        } else if order <= 2 {
+            36.0
+        } else {
+            16.0
+        };
         let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let tangle = tangle(tracer, order);
         let x = settings.size_parameter;
@@ -173,8 +200,12 @@ impl OrderFan {
                 knots: Vec::new(),
                 size_parameter: x,
                 rim,
+                edge: edge.map(EdgeWave::taper),
             };
-            let meridians = trace(tracer, order, centre, &places, layout, tangle)?;
+            let mut meridians = trace(tracer, order, centre, &places, layout, tangle)?;
+            for (segments, &azimuth) in meridians.iter_mut().zip(&places) {
+                segments.extend(edge.iter().flat_map(|edge| edge.segments(azimuth)));
+            }
             let spans = spans(&meridians);
             Some(Self { meridians, spans, axis_gap, azimuths: azimuths.clone() })
         })

@@ -17,8 +17,9 @@ pub struct ForwardDiffraction {
     /// Points of the outline and its tangents by azimuth ψ.
     points: Vec<[f64; 2]>,
     tangents: Vec<[f64; 2]>,
-    /// Support function (largest extent) and radius of curvature, by the azimuth of the normal.
-    support: Vec<[f64; 2]>,
+    /// Support function (largest extent), its slope, and radius of curvature, by the azimuth of the
+    /// normal.
+    support: Vec<[f64; 3]>,
     circular: bool,
     area: f64,
 }
@@ -139,8 +140,8 @@ impl ForwardDiffraction {
         between(q, self.support_at(azimuth), self.support_at(azimuth + PI))
     }
 
-    /// Support and radius of curvature where the outline's normal has this azimuth.
-    fn support_at(&self, azimuth: f64) -> [f64; 2] {
+    /// Support, its slope, and radius of curvature where the outline's normal has this azimuth.
+    pub fn support_at(&self, azimuth: f64) -> [f64; 3] {
         let place = azimuth.rem_euclid(TAU) / TAU * POINTS as f64;
         let i = place.floor();
         let f = place - i;
@@ -152,17 +153,17 @@ impl ForwardDiffraction {
             -(f + 1.0) * f * (f - 2.0) / 2.0,
             (f + 1.0) * f * (f - 1.0) / 6.0,
         ];
-        let mut out = [0.0; 2];
+        let mut out = [0.0; 3];
         for (k, weight) in w.iter().enumerate() {
             let value = at(k as isize - 1);
-            out = [out[0] + weight * value[0], out[1] + weight * value[1]];
+            out = std::array::from_fn(|c| out[c] + weight * value[c]);
         }
         out
     }
 }
 
 /// Waves of two points of the outline, each with its support and radius of curvature.
-fn between(q: f64, [h1, r1]: [f64; 2], [h2, r2]: [f64; 2]) -> Complex64 {
+fn between(q: f64, [h1, _, r1]: [f64; 3], [h2, _, r2]: [f64; 3]) -> Complex64 {
     let near = hankel1(q * h1).conj() * (r1 * h1).sqrt();
     let far = hankel1(q * h2) * (r2 * h2).sqrt();
     (near + far) * (PI / q)
@@ -171,6 +172,15 @@ fn between(q: f64, [h1, r1]: [f64; 2], [h2, r2]: [f64; 2]) -> Complex64 {
 /// `2 J₁(z)/z`.
 fn circle(z: f64) -> f64 {
     if z < 1e-4 { 1.0 - z * z / 8.0 } else { 2.0 * hankel1(z).re / z }
+}
+
+/// The Hankel function of an edge's wave over its leading term, `H₁⁽²⁾` for positive `z`, `H₁⁽¹⁾` of
+/// `-z` for negative.
+pub fn hankel_over_leading_term(z: f64) -> Complex64 {
+    let size = z.abs();
+    let leading = Complex64::from_polar((2.0 / (PI * size)).sqrt(), size - 0.75 * PI);
+    let ratio = hankel1(size) / leading;
+    if z > 0.0 { ratio.conj() } else { ratio }
 }
 
 /// `H₁⁽¹⁾(z) = J₁ + i Y₁`.
@@ -187,7 +197,7 @@ fn hankel1(z: f64) -> Complex64 {
 }
 
 /// `∫₀¹ t exp(-i t φ) dt`.
-fn ramp(phase: f64) -> Complex64 {
+pub fn ramp(phase: f64) -> Complex64 {
     if phase.abs() < 1e-2 {
         let p = phase;
         return Complex64::new(
@@ -218,7 +228,7 @@ fn periodic_derivative(values: &[f64]) -> Vec<f64> {
 }
 
 /// Support function and its radius of curvature on an even grid of normal azimuths.
-fn support(points: &[[f64; 2]], tangents: &[[f64; 2]]) -> Vec<[f64; 2]> {
+fn support(points: &[[f64; 2]], tangents: &[[f64; 2]]) -> Vec<[f64; 3]> {
     // The support function is smooth: h(ν) at its maximum over the outline, by Newton from the grid.
     let n = points.len();
     let values: Vec<f64> = (0..n)
@@ -233,6 +243,7 @@ fn support(points: &[[f64; 2]], tangents: &[[f64; 2]]) -> Vec<[f64; 2]> {
             height(best) - 0.5 * s * s / bend
         })
         .collect();
-    let bend = periodic_derivative(&periodic_derivative(&values));
-    values.iter().zip(bend).map(|(h, b)| [*h, (h + b).max(1e-6)]).collect()
+    let slope = periodic_derivative(&values);
+    let bend = periodic_derivative(&slope);
+    values.iter().zip(slope).zip(bend).map(|((h, s), b)| [*h, s, (h + b).max(1e-6)]).collect()
 }

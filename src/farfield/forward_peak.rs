@@ -7,13 +7,11 @@
 //! `x^(-2/3)` and the wave between diffraction and rays), so that the table sums to 1.
 
 use super::direction::Direction;
-use super::forward_diffraction::ForwardDiffraction;
+use super::edge::near_axis;
+use super::forward_wave::ForwardWave;
 use crate::optics::AmplitudeMatrix;
-use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Lobes about the axis within which the peak is treated; beyond, point values serve.
-const LOBES: f64 = 20.0;
 /// Samples per lobe when averaging over a cell.
 const SAMPLES_PER_LOBE: f64 = 8.0;
 
@@ -28,14 +26,15 @@ pub struct ForwardCells {
 impl ForwardCells {
     /// The cells of the θ axis (ascending) that lie within the peak.
     pub fn new(theta: &[f64], size_parameter: f64) -> Self {
-        let reach = LOBES * PI / size_parameter;
+        let reach = near_axis(size_parameter);
         let last = theta.len() - 1;
         let cell = |i: usize| {
             let low = if i == 0 { theta[0] } else { 0.5 * (theta[i - 1] + theta[i]) };
             let high = if i == last { theta[last] } else { 0.5 * (theta[i] + theta[i + 1]) };
             (low, high)
         };
-        let cells = (0..theta.len()).map(cell).take_while(|c| c.0 < reach).collect();
+        let count = theta.partition_point(|&t| t < reach);
+        let cells = (0..count).map(cell).collect();
         Self { cells, size_parameter }
     }
 
@@ -45,22 +44,16 @@ impl ForwardCells {
     }
 
     /// The diffracted wave in all cells at an azimuth.
-    fn samples(
-        &self,
-        peak: &ForwardDiffraction,
-        theta: &[f64],
-        phi: f64,
-        mean: bool,
-    ) -> Vec<PeakSample> {
+    fn samples(&self, peak: &ForwardWave, theta: &[f64], phi: f64, mean: bool) -> Vec<PeakSample> {
         let sample = |i: usize| PeakSample {
-            amplitude: peak.amplitude(self.size_parameter, &Direction::new(theta[i], phi)),
+            amplitude: peak.peak(&Direction::new(theta[i], phi)),
             mean: if mean && self.is_coarse(i) { self.mean_intensity(peak, i, phi) } else { 0.0 },
         };
         (0..self.cells.len()).map(sample).collect()
     }
 
     /// Mean of `|S_diffraction|²` over cell `i` at an azimuth.
-    fn mean_intensity(&self, peak: &ForwardDiffraction, i: usize, azimuth: f64) -> f64 {
+    fn mean_intensity(&self, peak: &ForwardWave, i: usize, azimuth: f64) -> f64 {
         let (low, high) = self.cells[i];
         let lobes = (high - low) * self.size_parameter / PI;
         let count = (lobes * SAMPLES_PER_LOBE).ceil().clamp(4.0, 4096.0) as usize;
@@ -68,8 +61,7 @@ impl ForwardCells {
         for k in 0..count {
             let theta = low + (high - low) * (k as f64 + 0.5) / count as f64;
             let weight = theta.sin();
-            let amplitude = peak.amplitude(self.size_parameter, &Direction::new(theta, azimuth));
-            sum += weight * amplitude.norm_sqr();
+            sum += weight * peak.peak(&Direction::new(theta, azimuth)).s11();
             weights += weight;
         }
         if weights > 0.0 { sum / weights } else { 0.0 }
@@ -93,7 +85,7 @@ pub struct PeakRows {
 /// the cell is fine enough for the sample to stand for it).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PeakSample {
-    pub amplitude: Complex64,
+    pub amplitude: AmplitudeMatrix,
     pub mean: f64,
 }
 
@@ -102,8 +94,9 @@ const STENCIL: i64 = 6;
 
 impl PeakRows {
     /// Compute the rows for samples `theta`; the outline's deformation sets how many azimuths.
-    pub fn new(peak: &ForwardDiffraction, cells: &ForwardCells, theta: &[f64], mean: bool) -> Self {
-        let reach = LOBES * PI * peak.deformation();
+    pub fn new(peak: &ForwardWave, cells: &ForwardCells, theta: &[f64], mean: bool) -> Self {
+        let reach =
+            near_axis(peak.size_parameter) * peak.size_parameter * peak.shadow.deformation();
         let last = if reach < 1e-9 { 0 } else { 32 + (1.5 * reach).ceil() as usize };
         let azimuths = (0..=last).map(|j| PI * j as f64 / last.max(1) as f64);
         let rows = azimuths.map(|phi| cells.samples(peak, theta, phi, mean)).collect();
@@ -125,17 +118,15 @@ impl PeakRows {
             let weight: f64 = others.map(|j| (x - j as f64) / (k - j) as f64).product();
             let folded = (first + k).rem_euclid(2 * last);
             let row = &self.rows[folded.min(2 * last - folded) as usize];
+            // S3 and S4 change sign in the mirror
+            let cross = if folded > last { -weight } else { weight };
             for (sum, sample) in found.iter_mut().zip(row) {
-                sum.amplitude += sample.amplitude * weight;
+                let AmplitudeMatrix { s1, s2, s3, s4 } = sample.amplitude;
+                let (s1, s2, s3, s4) = (s1 * weight, s2 * weight, s3 * cross, s4 * cross);
+                sum.amplitude += AmplitudeMatrix { s1, s2, s3, s4 };
                 sum.mean += sample.mean * weight;
             }
         }
         found
     }
-}
-
-/// Add the diffraction amplitude, the same for both polarisations.
-pub fn add(amplitude: &mut AmplitudeMatrix, diffraction: Complex64) {
-    amplitude.s1 += diffraction;
-    amplitude.s2 += diffraction;
 }

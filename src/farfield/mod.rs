@@ -7,10 +7,13 @@
 pub mod arc;
 pub mod collecting_sphere;
 pub mod direction;
+pub mod edge;
+mod edge_profile;
 pub mod fan;
 pub mod fold;
 pub mod forward_diffraction;
 pub mod forward_peak;
+pub mod forward_wave;
 pub mod gaussian_filter;
 pub mod huygens_fresnel;
 pub mod interference;
@@ -22,6 +25,7 @@ mod rim_rays;
 pub mod segment;
 pub mod sweep;
 pub mod tabulate;
+mod taper;
 
 pub use collecting_sphere::CollectingSphere;
 pub use direction::Direction;
@@ -31,6 +35,7 @@ use crate::shape::Shape;
 use crate::trace::{Tracer, Wavefront};
 use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
+use forward_wave::ForwardWave;
 use interference::{Interference, PathInterpolation};
 use std::f64::consts::{PI, TAU};
 use tabulate::Column;
@@ -66,7 +71,8 @@ impl<'a> FarField<'a> {
 
     /// Meridians with uniform Airy functions at their folds.
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
-        let fan = Fan::new(tracer, settings);
+        let silhouette = ForwardDiffraction::new(tracer.shape());
+        let fan = Fan::new(tracer, settings, &silhouette);
         let patches = (!fan.irregular.is_empty()).then(|| {
             let rings = (FALLBACK_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
             let wavefront =
@@ -80,7 +86,7 @@ impl<'a> FarField<'a> {
         });
         Self {
             source: Source::Meridians(fan, patches),
-            silhouette: ForwardDiffraction::new(tracer.shape()),
+            silhouette,
             size_parameter: settings.size_parameter,
             _shape: tracer.shape(),
         }
@@ -92,6 +98,15 @@ impl<'a> FarField<'a> {
             Source::Patches(..) => &[],
             Source::Meridians(fan, _) => &fan.irregular,
         }
+    }
+
+    /// The wave that goes straight on.
+    pub fn forward_wave(&self) -> ForwardWave<'_> {
+        let edge = match &self.source {
+            Source::Patches(..) => None,
+            Source::Meridians(fan, _) => fan.edge(),
+        };
+        ForwardWave { shadow: &self.silhouette, edge, size_parameter: self.size_parameter }
     }
 
     /// The silhouette and its diffraction.
@@ -145,10 +160,9 @@ impl<'a> FarField<'a> {
             }
         };
         if diffraction {
+            let forward = self.forward_wave();
             for (amplitude, &(theta, phi)) in amplitudes.iter_mut().zip(directions) {
-                let direction = Direction::new(theta, phi);
-                let tail = self.silhouette.tail(self.size_parameter, &direction);
-                forward_peak::add(amplitude, tail);
+                *amplitude += forward.beside_meridians(&Direction::new(theta, phi));
             }
         }
         amplitudes

@@ -21,6 +21,7 @@ use super::meridian::Node;
 use super::rim_integrand::Sums;
 use super::rim_rays::{RAYS, Rays};
 use super::segment::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
+use super::taper::Taper;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -141,16 +142,9 @@ impl RimLayout {
         paths.iter().map(|path| path - offset).collect()
     }
 
-    /// Weight of the integral for a launch point `sin α`: an infinitely smooth step.
+    /// Weight of the integral for a launch point `sin α`.
     pub fn weight(&self, sin: f64) -> f64 {
-        let t = (sin - self.start) / (self.full - self.start);
-        if t <= 0.0 {
-            0.0
-        } else if t >= 1.0 {
-            1.0
-        } else {
-            1.0 / (1.0 + (1.0 / t - 1.0 / (1.0 - t)).exp())
-        }
+        Taper { start: self.start, full: self.full }.weight(sin)
     }
 
     /// Spread knots that serve all arcs of an order: from the ray at `start` past the bow, as far as

@@ -1,11 +1,12 @@
 //! From columns of amplitudes to the values of one slab, normalised, with the forward peak in it.
 
-use super::forward_diffraction::ForwardDiffraction;
-use super::forward_peak::{self, ForwardCells, PeakRows, PeakSample};
+use super::forward_peak::{ForwardCells, PeakRows, PeakSample};
+use super::forward_wave::ForwardWave;
 use super::{FarField, gaussian_filter};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, ForwardPeak, Quantity};
 use ndarray::{Array2, Array3, ArrayViewMut3, Axis, s};
+use num_complex::Complex64;
 use rayon::prelude::*;
 
 /// What a column of the far field (all θ at one azimuth) holds.
@@ -30,7 +31,7 @@ pub struct Tabulator<'a> {
     pub interference: bool,
     /// Standard deviation (radians) of the Gaussian filter, where it stands for diffraction.
     pub filter: Option<f64>,
-    pub diffraction: Option<&'a ForwardDiffraction>,
+    pub diffraction: Option<ForwardWave<'a>>,
     /// Share of the intercepted power that is scattered.
     pub scattered: f64,
     /// Area of the shadow over the squared radius.
@@ -60,7 +61,7 @@ struct ForwardSample {
     rest: [[f64; 4]; 4],
     rest_amplitude: AmplitudeMatrix,
     /// Diffracted amplitude at the sample, and mean diffracted intensity over its cell.
-    amplitude: num_complex::Complex64,
+    amplitude: AmplitudeMatrix,
     mean: f64,
     coarse: bool,
 }
@@ -68,9 +69,7 @@ struct ForwardSample {
 /// Forward diffraction, prepared for one slab.
 struct Peak<'a> {
     rows: PeakRows,
-    diffraction: &'a ForwardDiffraction,
-    /// Scattering angle beyond which it is not seen.
-    farthest: f64,
+    wave: ForwardWave<'a>,
 }
 
 /// Columns computed together, so that what they share is read once.
@@ -89,13 +88,12 @@ impl Tabulator<'_> {
         let cells = self.forward_cells();
         let peak = self.peak().map(|peak| Peak {
             rows: PeakRows::new(
-                peak,
+                &peak,
                 &cells,
                 self.theta,
                 self.forward_peak == ForwardPeak::CellAverage,
             ),
-            farthest: peak.farthest(self.size_parameter),
-            diffraction: peak,
+            wave: peak,
         });
         let lines: Vec<Line> = computed
             .par_chunks(COLUMNS_AT_ONCE)
@@ -137,7 +135,7 @@ impl Tabulator<'_> {
     }
 
     /// Forward diffraction, where it is in the table.
-    fn peak(&self) -> Option<&ForwardDiffraction> {
+    fn peak(&self) -> Option<ForwardWave<'_>> {
         self.diffraction.filter(|_| self.forward_peak != ForwardPeak::Separate)
     }
 
@@ -154,11 +152,10 @@ impl Tabulator<'_> {
             let samples = peak.rows.at(phi);
             let sample = |(i, s)| self.forward_sample(&column, cells, i, s);
             forward = samples.into_iter().enumerate().map(sample).collect();
-            let end = self.theta.partition_point(|&theta| theta < peak.farthest);
-            let rows = forward.len()..end.max(forward.len());
-            let tails = peak.diffraction.tails(self.size_parameter, &self.theta[rows.clone()], phi);
-            for (amplitude, tail) in column.amplitude[rows].iter_mut().zip(tails) {
-                forward_peak::add(amplitude, tail);
+            let beyond = forward.len();
+            let tails = peak.wave.tails(&self.theta[beyond..], phi);
+            for (amplitude, tail) in column.amplitude[beyond..].iter_mut().zip(tails) {
+                *amplitude += tail;
             }
         }
         let elements = self.quantity.elements();
@@ -207,11 +204,10 @@ impl Tabulator<'_> {
     /// Mueller matrix of a forward sample with the diffracted power scaled by `factor`.
     fn forward_mueller(&self, sample: &ForwardSample, factor: f64) -> [[f64; 4]; 4] {
         if self.interference && !sample.coarse {
-            let mut s = sample.rest_amplitude;
-            forward_peak::add(&mut s, sample.amplitude * factor.sqrt());
-            return s.mueller();
+            let forward = sample.amplitude * Complex64::from(factor.sqrt());
+            return (sample.rest_amplitude + forward).mueller();
         }
-        let power = if sample.coarse { sample.mean } else { sample.amplitude.norm_sqr() } * factor;
+        let power = if sample.coarse { sample.mean } else { sample.amplitude.s11() } * factor;
         let mut mueller = sample.rest;
         for (k, row) in mueller.iter_mut().enumerate() {
             row[k] += power;

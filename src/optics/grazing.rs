@@ -74,6 +74,40 @@ impl Grazing {
         Self::airy(eta, ratio, third).map_or_else(|| Self::flat(s), |(found, _)| found)
     }
 
+    /// External reflection, perpendicular and parallel, as a partial wave of an impact has it: with
+    /// the phase of the way from the turning point to the surface and back, analytic through grazing
+    /// incidence, 1 far beyond (nothing taken from the wave): the `R` in the Debye series'
+    /// `(1 - R)/2`, with Airy functions for Hankel functions outside and a flat interface inside.
+    /// For the square of the cosine outside (negative beyond), the size parameter of the radius of
+    /// curvature, and the index inside.
+    pub fn reflection(cos_squared: f64, curvature_size: f64, index: Complex64) -> [Complex64; 2] {
+        let s = Complex64::from(cos_squared);
+        let third = (0.5 * curvature_size).cbrt();
+        let ratio = shape_ratio(s);
+        let eta = s * ratio * (third * third);
+        let (found, turn) = if eta.re > SERIES {
+            let found = if eta.re > FLAT { Self::flat(s) } else { Self::series(s, eta) };
+            (found, found.turn * Complex64::cis(-(4.0 / 3.0) * eta.re.powf(1.5)))
+        } else {
+            Self::airy(eta, ratio, third).map_or_else(
+                || (Self::flat(s), Complex64::from(1.0)),
+                |(found, _)| (found, found.turn),
+            )
+        };
+        let square = 1.0 - (1.0 - s) / (index * index);
+        let mut inside = square.sqrt();
+        if inside.im < 0.0 && square.re < 0.0 {
+            inside = -inside;
+        }
+        // Hankel functions differ from their waves by -π/4 each
+        let turn = Complex64::i() * turn;
+        let (a, b) = (found.lambda_in, found.lambda);
+        [
+            turn * (a - index * inside) / (b + index * inside),
+            turn * (index * a - inside) / (index * b + inside),
+        ]
+    }
+
     /// Path from the turning point of the wave outside to the surface, per radius of curvature:
     /// `sin γ - γ cos γ` for the sine of the grazing angle.
     pub fn path_outside(sin: f64) -> f64 {
