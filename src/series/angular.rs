@@ -90,6 +90,11 @@ impl AngleSet {
         self.place.len()
     }
 
+    /// Number of recurrences that serve them.
+    pub fn recurrences(&self) -> usize {
+        self.t.len()
+    }
+
     /// Whether no angle was asked for.
     pub fn is_empty(&self) -> bool {
         self.place.is_empty()

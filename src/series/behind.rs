@@ -13,8 +13,10 @@
 //! So no resonance, however narrow, needs a sample of its own.
 
 use super::debye::Behind;
+use multiversion::multiversion;
 use num_complex::Complex64;
 use rayon::prelude::*;
+use std::f64::consts::TAU;
 
 /// Pairs of partial waves up to this distance keep step long enough to count. Measured: 8 and 16
 /// differ by less than 1e-6 behind order 24, by less than 1e-4 behind order 8.
@@ -91,30 +93,24 @@ impl Products {
         }
     }
 
-    /// S11, S12, S33 and S34 at scattering angles (radians).
-    pub fn elements(&self, theta: &[f64]) -> Vec<[f64; 4]> {
-        let waves = self.pairs.len() / PAIRS;
-        theta.par_iter().map(|&theta| self.elements_at(waves, theta)).collect()
+    /// Number of partial waves that count.
+    pub fn waves(&self) -> usize {
+        self.pairs.len() / PAIRS
     }
 
-    fn elements_at(&self, waves: usize, theta: f64) -> [f64; 4] {
-        let (pi, tau) = angular(waves, theta);
-        let mut sum = [0.0; 4];
-        for n in 0..waves {
-            for d in 0..PAIRS.min(waves - n) {
-                let Pair { aa, bb, ab, ba } = self.pairs[n * PAIRS + d];
-                let (p, t, q, u) = (pi[n], tau[n], pi[n + d], tau[n + d]);
-                // The pair (n, n+d) and the pair (n+d, n), which are one for d = 0.
-                let half = if d == 0 { 0.5 } else { 1.0 };
-                let (even, odd) = (p * q + t * u, t * u - p * q);
-                let (cross, skew) = (p * u + t * q, t * q - p * u);
-                sum[0] += half * ((aa.re + bb.re) * even + (ab.re + ba.re) * cross);
-                sum[1] += half * ((aa.re - bb.re) * odd + (ab.re - ba.re) * skew);
-                sum[2] += half * ((aa.re + bb.re) * cross + (ab.re + ba.re) * even);
-                sum[3] += half * ((aa.im - bb.im) * skew + (ab.im - ba.im) * odd);
+    /// S11, S12, S33 and S34 at scattering angles (radians).
+    pub fn elements(&self, theta: &[f64]) -> Vec<[f64; 4]> {
+        let factors: Vec<Factors> = self.pairs.iter().map(Factors::new).collect();
+        let mut out = vec![[0.0; 4]; theta.len()];
+        out.par_chunks_mut(LANES).zip(theta.par_chunks(LANES)).for_each(|(out, theta)| {
+            let mut cosines = [0.0; LANES];
+            cosines.iter_mut().zip(theta).for_each(|(cosine, theta)| *cosine = theta.cos());
+            let sums = elements_at(&factors, &angular(self.waves(), &cosines));
+            for (l, row) in out.iter_mut().enumerate() {
+                *row = sums.map(|lanes| lanes[l]);
             }
-        }
-        sum
+        });
+        out
     }
 
     /// Σ (2n+1)(|a_n|² + |b_n|²), and the sum of Bohren & Huffman's sec. 4.5 for the asymmetry.
@@ -138,6 +134,8 @@ struct Stretch {
     internal: [Complex64; 2],
     /// 1/R11, or 0 where nothing turns.
     inverse: [Complex64; 2],
+    /// ln of the change of R11.
+    turn: Complex64,
 }
 
 fn stretches(from: &[Behind], to: &[Behind], before: f64, after: f64) -> Vec<Stretch> {
@@ -149,6 +147,7 @@ fn stretches(from: &[Behind], to: &[Behind], before: f64, after: f64) -> Vec<Str
             first: [a.first * before, b.first * after],
             internal: [a.internal, b.internal],
             inverse: [inverse(a.internal), inverse(b.internal)],
+            turn: (b.internal / a.internal).ln(),
         })
         .collect()
 }
@@ -171,23 +170,88 @@ impl Stretch {
         if turn < STRAIGHT * n0.min(n1) || turn < 1e-28 {
             return p0 * d0.conj() / n0 + p1 * d1.conj() / n1;
         }
-        (p0 + p1) * (1.0 - (d1.ln() - d0.ln()) / (u1 / u0).ln())
+        // ln(u₁/u₀), its angle between -π and π.
+        let mut spiral = self.turn + other.turn.conj();
+        spiral.im -= TAU * (spiral.im / TAU).round();
+        // Both lie in the right half plane, so that the ln of the ratio is that of the two.
+        (p0 + p1) * (1.0 - (d1 * d0.conj() / n0).ln() / spiral)
     }
 }
 
-/// `(2n+1)/(n(n+1))` times π_n and τ_n for n = 1 … `count`.
-fn angular(count: usize, theta: f64) -> (Vec<f64>, Vec<f64>) {
-    let cosine = theta.cos();
-    let (mut before, mut now) = (0.0, 1.0);
+/// Angles carried together.
+const LANES: usize = 16;
+type Lanes = [f64; LANES];
+
+/// What a pair of waves counts for the products of π_n, τ_n with those of its partner.
+#[derive(Clone, Copy, Debug)]
+struct Factors {
+    same: f64,
+    mixed: f64,
+    same_difference: f64,
+    mixed_difference: f64,
+    same_skew: f64,
+    mixed_skew: f64,
+}
+
+impl Factors {
+    fn new(Pair { aa, bb, ab, ba }: &Pair) -> Self {
+        Self {
+            same: aa.re + bb.re,
+            mixed: ab.re + ba.re,
+            same_difference: aa.re - bb.re,
+            mixed_difference: ab.re - ba.re,
+            same_skew: aa.im - bb.im,
+            mixed_skew: ab.im - ba.im,
+        }
+    }
+}
+
+/// S11, S12, S33 and S34 at some angles from π_n and τ_n there.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
+fn elements_at(factors: &[Factors], angular: &[(Lanes, Lanes)]) -> [Lanes; 4] {
+    let mut total = [[0.0; LANES]; 4];
+    for (n, (p, t)) in angular.iter().enumerate() {
+        let mut sum = [[0.0; LANES]; 4];
+        for (d, (q, u)) in angular[n..].iter().take(PAIRS).enumerate() {
+            let f = factors[n * PAIRS + d];
+            for l in 0..LANES {
+                let (pq, tu, pu, tq) = (p[l] * q[l], t[l] * u[l], p[l] * u[l], t[l] * q[l]);
+                let (even, odd, cross, skew) = (pq + tu, tu - pq, pu + tq, tq - pu);
+                sum[0][l] += f.same * even + f.mixed * cross;
+                sum[1][l] += f.same_difference * odd + f.mixed_difference * skew;
+                sum[2][l] += f.same * cross + f.mixed * even;
+                sum[3][l] += f.same_skew * skew + f.mixed_skew * odd;
+            }
+            // The pair (n, n+d) and the pair (n+d, n), which are one for d = 0.
+            if d == 0 {
+                sum.iter_mut().flatten().for_each(|value| *value *= 0.5);
+            }
+        }
+        total.iter_mut().flatten().zip(sum.iter().flatten()).for_each(|(to, from)| *to += from);
+    }
+    total
+}
+
+/// `(2n+1)/(n(n+1))` times π_n and τ_n for n = 1 … `count` at some cos θ.
+fn angular(count: usize, cosines: &Lanes) -> Vec<(Lanes, Lanes)> {
+    let (mut before, mut now) = ([0.0; LANES], [1.0; LANES]);
     (1..=count)
         .map(|n| {
             let n = n as f64;
-            let tau = n * cosine * now - (n + 1.0) * before;
             let weight = (2.0 * n + 1.0) / (n * (n + 1.0));
-            let pair = (weight * now, weight * tau);
-            let next = ((2.0 * n + 1.0) * cosine * now - (n + 1.0) * before) / n;
-            (before, now) = (now, next);
-            pair
+            let (mut pi, mut tau) = ([0.0; LANES], [0.0; LANES]);
+            for l in 0..LANES {
+                pi[l] = weight * now[l];
+                tau[l] = weight * (n * cosines[l] * now[l] - (n + 1.0) * before[l]);
+                let next =
+                    ((2.0 * n + 1.0) * cosines[l] * now[l] - (n + 1.0) * before[l]) * n.recip();
+                (before[l], now[l]) = (now[l], next);
+            }
+            (pi, tau)
         })
-        .unzip()
+        .collect()
 }

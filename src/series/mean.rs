@@ -7,15 +7,10 @@
 //! steps; the orders behind the cut enter by their mean power (`behind.rs`). Q grows until
 //! the difference to Q/2 says that the error is met.
 
-use super::angular::{self, AngleSet};
-use super::behind::{Products, Waves};
-use super::debye::{Cut, DebyeSeries};
-use super::lorenz_mie::{Sphere, sums};
+use super::mean_sum::{Node, fine_and_coarse};
 use super::{SeriesError, checked_term_count};
 use crate::medium::{Medium, MediumError};
 use crate::size_distribution::SizeDistribution;
-use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// What is averaged: spheres of a medium at one wavelength of a table.
@@ -78,20 +73,8 @@ const TAIL: f64 = 0.05;
 const GAIN: f64 = 2.0;
 /// Angles at which the two cuts are compared.
 const COMPARED: usize = 61;
-/// Stretches that are summed apart; a fixed number, so that threads do not change the sums.
-const PARTS: usize = 64;
 /// Standard deviation of the band `cos²` in units of its full width at half maximum.
 const BAND_DEVIATION: f64 = 0.361_512_4;
-
-/// One sphere of an average.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    radius: f64,
-    wavelength: f64,
-    index: Complex64,
-    /// Share of all particles, or of the band.
-    weight: f64,
-}
 
 impl Ensemble<'_> {
     /// The mean at scattering angles (radians).
@@ -190,17 +173,19 @@ impl Ensemble<'_> {
         checked_term_count(to, index)?;
         let steps = 2 * (0.5 * steps.max(64.0)).ceil() as usize;
         let nodes = self.nodes(steps)?;
-        let twice = |node: &Node| Node { weight: 2.0 * node.weight, ..*node };
-        let half: Vec<Node> = nodes.iter().step_by(2).map(twice).collect();
         let compared: Vec<f64> =
             (0..COMPARED).map(|i| PI * i as f64 / (COMPARED - 1) as f64).collect();
         let all: Vec<f64> = theta.iter().chain(&compared).copied().collect();
-        let mut mean = sum(&nodes, &all, cut)?;
-        let coarse = sum(&half, &compared, cut / 2)?;
-        let fine = mean.elements.split_off(theta.len());
-        mean.error = difference(&fine, &coarse.elements) / GAIN;
-        mean.spheres += coarse.spheres;
-        Ok(mean)
+        let [mut fine, coarse] = fine_and_coarse(&nodes, cut, &all, &compared)?;
+        let at_compared = fine.elements.split_off(theta.len());
+        Ok(Mean {
+            elements: fine.elements,
+            scattering: fine.scattering,
+            absorption: fine.absorption,
+            asymmetry: fine.asymmetry,
+            error: difference(&at_compared, &coarse.elements) / GAIN,
+            spheres: nodes.len(),
+        })
     }
 }
 
@@ -231,91 +216,4 @@ impl Mean {
 fn difference(fine: &[[f64; 4]], coarse: &[[f64; 4]]) -> f64 {
     let squares = fine.iter().zip(coarse).map(|(a, b)| (b[0] / a[0] - 1.0).powi(2));
     (squares.sum::<f64>() / fine.len() as f64).sqrt()
-}
-
-/// What a stretch of spheres adds up to.
-#[derive(Default)]
-struct Part {
-    elements: Vec<[f64; 4]>,
-    /// Behind the cut, in units of area.
-    behind: Products,
-    scattering: f64,
-    absorption: f64,
-    forward: f64,
-}
-
-/// Sum over all spheres with the series cut behind an order.
-fn sum(nodes: &[Node], theta: &[f64], cut: u32) -> Result<Mean, MeanError> {
-    let set = AngleSet::new(theta);
-    let length = nodes.len().div_ceil(PARTS);
-    // The last parts hold the largest spheres: they are to begin first.
-    let parts: Vec<Part> = (0..nodes.len().div_ceil(length))
-        .into_par_iter()
-        .rev()
-        .with_max_len(1)
-        .map(|k| part(nodes, k * length..((k + 1) * length).min(nodes.len()), &set, cut))
-        .collect::<Result<_, SeriesError>>()?;
-    let mut total = Part { elements: vec![[0.0; 4]; theta.len()], ..Part::default() };
-    for part in &parts {
-        let pairs = total.elements.iter_mut().flatten().zip(part.elements.iter().flatten());
-        pairs.for_each(|(sum, value)| *sum += value);
-        total.behind.add(&part.behind);
-        total.scattering += part.scattering;
-        total.absorption += part.absorption;
-        total.forward += part.forward;
-    }
-    let behind = total.behind.elements(theta);
-    for (sum, more) in total.elements.iter_mut().flatten().zip(behind.iter().flatten()) {
-        *sum += more;
-    }
-    let (scattered, forward) = total.behind.sums();
-    let scattering = total.scattering + TAU * scattered;
-    Ok(Mean {
-        elements: total.elements,
-        scattering,
-        absorption: total.absorption,
-        asymmetry: (total.forward + 2.0 * TAU * forward) / scattering,
-        error: 0.0,
-        spheres: nodes.len(),
-    })
-}
-
-/// The spheres of one stretch, and the way to the first one of the next.
-fn part(
-    nodes: &[Node],
-    range: std::ops::Range<usize>,
-    set: &AngleSet,
-    cut: u32,
-) -> Result<Part, SeriesError> {
-    let mut part = Part { elements: vec![[0.0; 4]; set.len()], ..Part::default() };
-    let mut before: Option<Waves> = None;
-    let last = (range.end + 1).min(nodes.len());
-    for (i, node) in nodes.iter().enumerate().take(last).skip(range.start) {
-        let (x, area) = (TAU * node.radius / node.wavelength, (node.wavelength / TAU).powi(2));
-        let Cut { a, b, electric, magnetic } = DebyeSeries::new(x, node.index)?.cut(cut);
-        let waves = Waves { electric, magnetic, weight: node.weight * area };
-        if let Some(before) = &before {
-            part.behind.add_stretch(before, &waves);
-        }
-        before = Some(waves);
-        if i == range.end {
-            break;
-        }
-        let scale = node.weight * area;
-        for (sum, (s1, s2)) in part.elements.iter_mut().zip(angular::amplitudes(&a, &b, set)) {
-            let (perpendicular, parallel, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
-            sum[0] += scale * 0.5 * (parallel + perpendicular);
-            sum[1] += scale * 0.5 * (parallel - perpendicular);
-            sum[2] += scale * cross.re;
-            sum[3] -= scale * cross.im;
-        }
-        let (scattered, forward) = sums(&a, &b);
-        part.scattering += scale * TAU * scattered;
-        part.forward += scale * 2.0 * TAU * forward;
-        if node.index.im > 0.0 {
-            let q = Sphere::new(x, node.index)?.efficiencies();
-            part.absorption += node.weight * q.q_abs * PI * node.radius * node.radius;
-        }
-    }
-    Ok(part)
 }

@@ -8,6 +8,7 @@ mod behind;
 pub mod debye;
 pub mod lorenz_mie;
 pub mod mean;
+mod mean_sum;
 mod sun_disc;
 pub mod table;
 
