@@ -220,7 +220,7 @@ fn inside_waves(y: Complex64, terms: usize) -> Vec<Inside> {
         }
         let outgoing = before / z - n as f64 * inverse;
         let square = phase * z * z;
-        evanescent |= square.norm() > EVANESCENT;
+        evanescent |= square.l1_norm() > EVANESCENT;
         let regular = (n + 1) as f64 * inverse - psi_ratio(n + 1);
         if evanescent {
             (before, z) = (before / z, Complex64::ONE);

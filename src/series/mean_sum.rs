@@ -56,6 +56,18 @@ pub(super) struct Summed {
     pub asymmetry: f64,
 }
 
+impl Summed {
+    /// With other spheres.
+    pub fn plus(mut self, other: &Summed) -> Summed {
+        add_rows(&mut self.elements, &other.elements);
+        let forward = self.asymmetry * self.scattering + other.asymmetry * other.scattering;
+        self.scattering += other.scattering;
+        self.asymmetry = forward / self.scattering;
+        self.absorption += other.absorption;
+        self
+    }
+}
+
 /// Sum all spheres with the series cut behind an order, and every second one with twice its weight
 /// and half as many orders, each at its own scattering angles (radians).
 pub(super) fn fine_and_coarse(
@@ -95,7 +107,8 @@ fn part<'a>(
     for node in &nodes[range.clone()] {
         terms = terms.max(checked_term_count(node.size_parameter(), node.index)?);
     }
-    let (mut fine, mut coarse) = (Sum::new(&sets[0], terms, cut), Sum::new(&sets[1], terms, cut / 2));
+    let (mut fine, mut coarse) =
+        (Sum::new(&sets[0], terms, cut), Sum::new(&sets[1], terms, cut / 2));
     let last = (range.end + 1).min(nodes.len());
     for (i, node) in nodes.iter().enumerate().take(last).skip(range.start) {
         let series = DebyeSeries::new(node.size_parameter(), node.index)?;
@@ -163,7 +176,7 @@ impl<'a> Sum<'a> {
     fn add(&mut self, series: &DebyeSeries, node: &Node, weight: f64, own: bool) {
         let scale = weight * node.area();
         let Cut { a, b, electric, magnetic } = series.cut(self.cut);
-        let waves = Waves { electric, magnetic, weight: scale };
+        let waves = Waves::new(&electric, &magnetic, scale);
         if let Some(before) = &self.before {
             self.behind.add_stretch(before, &waves);
         }

@@ -9,6 +9,7 @@ pub mod debye;
 pub mod lorenz_mie;
 pub mod mean;
 mod mean_sum;
+mod stretch;
 mod sun_disc;
 pub mod table;
 
