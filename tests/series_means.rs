@@ -163,8 +163,8 @@ fn distributions_meet_brute_force() {
 }
 
 /// The cloud of `data/scenes/cloud_gamma.toml`, S11 at every single angle: against a run with many
-/// more orders before the cut and steps, and (`GONIO_SLOW_CHECKS=1`) at some angles, most of them in
-/// the glory, against a plain sum over 2^22 spheres.
+/// more orders before the cut and steps, and (`GONIO_SLOW_CHECKS=1`) at some angles, forward and
+/// in the glory, against a plain sum over 2^22 spheres.
 #[test]
 fn no_single_angle_of_a_cloud_is_off() {
     let water = MediumSpec::name("water").resolve(Path::new("")).unwrap();

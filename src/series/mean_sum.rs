@@ -114,7 +114,7 @@ fn part<'a>(
         let series = DebyeSeries::new(node.size_parameter(), node.index)?;
         let own = i < range.end;
         fine.add(&series, node, node.weight, own);
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             coarse.add(&series, node, 2.0 * node.weight, own);
         }
     }
@@ -274,7 +274,7 @@ mod tests {
     fn ladder_wastes_little() {
         for needed in 1..5000 {
             let degree = grid_degree(needed);
-            assert!(degree >= needed && degree % 2 == 0, "{needed}: {degree}");
+            assert!(degree >= needed && degree.is_multiple_of(2), "{needed}: {degree}");
             assert!(degree <= (needed + needed / 4 + 1).max(16), "{needed}: {degree}");
         }
     }
