@@ -162,6 +162,47 @@ fn distributions_meet_brute_force() {
     }
 }
 
+/// The cloud of `data/scenes/cloud_gamma.toml`, S11 at every single angle: against a run with many
+/// more orders before the cut and steps, and (`GONIO_SLOW_CHECKS=1`) at some angles, forward and
+/// in the glory, against a plain sum over 2^22 spheres.
+#[test]
+fn no_single_angle_of_a_cloud_is_off() {
+    let water = MediumSpec::name("water").resolve(Path::new("")).unwrap();
+    let sizes = SizeDistribution::Gamma { effective_radius: 10e-6, effective_variance: 0.1 };
+    let of = |wavelength, tolerance| {
+        let ensemble = Ensemble { sizes, medium: &water, wavelength, bandwidth: 0.0, tolerance };
+        ensemble.mean(&angles(1801)).unwrap()
+    };
+    let largest = |pairs: &mut dyn Iterator<Item = (f64, f64)>| {
+        pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+    };
+    for wavelength in [380e-9, 550e-9, 720e-9] {
+        let (mean, fine) = (of(wavelength, 1e-4), of(wavelength, 2e-6));
+        let pairs = mean.elements.iter().zip(&fine.elements);
+        let off = largest(&mut pairs.map(|(a, b)| (a[0], b[0])));
+        println!("{wavelength:e} m: {off:.1e} against {} spheres", fine.spheres);
+        assert!(off < 1e-4, "{wavelength:e}: {off:e}");
+    }
+    if std::env::var_os("GONIO_SLOW_CHECKS").is_none() {
+        return;
+    }
+    let places: Vec<usize> = (0..=170).step_by(10).chain(1700..=1800).step_by(5).collect();
+    let theta: Vec<f64> = places.iter().map(|&i| angles(1801)[i]).collect();
+    let set = AngleSet::new(&theta);
+    let (wavelength, count) = (550e-9, 1 << 22);
+    let index = water.index(wavelength).unwrap();
+    let step = 40e-6 / f64::from(count);
+    let truth = brute(count as usize, &set, |i| {
+        let radius = (i as f64 + 0.5) * step;
+        (radius, wavelength, index, sizes.density(radius) * step / sizes.number())
+    });
+    let mean = of(wavelength, 1e-4);
+    let pairs = places.iter().zip(&truth.elements).map(|(&i, b)| (mean.elements[i][0], b[0]));
+    let off = largest(&mut pairs.into_iter());
+    println!("plain sum: {off:.1e}");
+    assert!(off < 1.2e-4, "{off:e}");
+}
+
 /// The table of the two distributions "delta" and "none" is the same, bit for bit.
 #[test]
 fn one_size_is_one_sphere() {

@@ -4,12 +4,11 @@ use super::UsageError;
 use clap::{Args, ValueEnum};
 use gonio::color::to_srgb;
 use gonio::hdf5::{DiagramAxis, DiagramValues, write_diagram};
-use gonio::lee::{self, Beats, Diagram, LeeError, Polarisation, Request, column_exposures};
+use gonio::lee::{self, Beats, Diagram, Drop, LeeError, Polarisation, Request, column_exposures};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::plan::Plan;
 use gonio::render::ColorDiagram;
 use gonio::scene::{Choice, Grid, Orders, Scene, SceneFile, ShapeName};
-use num_complex::Complex64;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -200,17 +199,21 @@ fn raindrops(args: &LeeArgs, request: &Request) -> anyhow::Result<Diagram> {
     };
     let directions =
         |theta: &[f64]| -> Vec<(f64, f64)> { theta.iter().map(|&t| (t, azimuth)).collect() };
-    let scatter = |radius: f64, wavelength: f64, index: Complex64, at: &Vec<(f64, f64)>| {
+    let one = |drop: &Drop, at: &[(f64, f64)]| {
         let mut sum = vec![[0.0; 2]; at.len()];
         for order in ORDERS {
-            let plan = plan_of(radius, order)?;
-            let matrices = gonio::simulate::scatter(&plan, index, TAU * radius / wavelength, at);
+            let plan = plan_of(drop.radius, order)?;
+            let size_parameter = TAU * drop.radius / drop.wavelength;
+            let matrices = gonio::simulate::scatter(&plan, drop.index, size_parameter, at);
             for (sum, m) in sum.iter_mut().zip(&matrices) {
                 sum[0] += 0.5 * (m.s2.norm_sqr() + m.s3.norm_sqr());
                 sum[1] += 0.5 * (m.s1.norm_sqr() + m.s4.norm_sqr());
             }
         }
         anyhow::Ok(sum)
+    };
+    let scatter = |drops: &[Drop], at: &Vec<(f64, f64)>| {
+        drops.iter().map(|drop| one(drop, at)).collect::<anyhow::Result<Vec<_>>>()
     };
     let mut round = request.clone();
     let mut flat = request.clone();

@@ -8,6 +8,7 @@
 
 mod sampling;
 mod sun_filter;
+mod wavelengths;
 
 pub use sampling::{Band, Beats, Sampling, SamplingNeed};
 pub use sun_filter::{Kernel, SunFilter};
@@ -74,21 +75,38 @@ pub enum Polarisation {
     Perpendicular,
 }
 
+/// A drop at one wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drop {
+    /// Radius of equal volume, and wavelength in vacuum, metres.
+    pub radius: f64,
+    pub wavelength: f64,
+    pub index: Complex64,
+}
+
+/// Neighbouring wavelengths that are computed together, since they share the angles.
+const TOGETHER: usize = 2;
+
 /// The diagram of spheres by Lorenz–Mie.
 ///
 /// # Errors
 /// [`LeeError`] for a medium without data in the visible, or angles and radii that make no sense.
 pub fn spheres(request: &Request) -> Result<Diagram, LeeError> {
-    diagram(request, Beats::All, &AngleSet::new, |radius, wavelength, index, angles| {
-        let sphere = Sphere::new(TAU * radius / wavelength, index)?;
-        let amplitudes = sphere.amplitudes_at(angles);
-        Ok(amplitudes.iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect())
+    let intensities = |amplitudes: Vec<(Complex64, Complex64)>| {
+        amplitudes.iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect()
+    };
+    diagram(request, Beats::All, &AngleSet::new, |drops, angles| {
+        let solve = |drop: &Drop| Sphere::new(TAU * drop.radius / drop.wavelength, drop.index);
+        if let [one, other] = drops {
+            let pair = Sphere::amplitudes_together([&solve(one)?, &solve(other)?], angles);
+            return Ok(pair.map(intensities).into());
+        }
+        drops.iter().map(|drop| Ok(intensities(solve(drop)?.amplitudes_at(angles)))).collect()
     })
 }
 
 /// The diagram by any method: `prepare` makes of a list of scattering angles (ascending) what
-/// `scatter` then gives the intensities of a drop at, for a radius, wavelength and index. Only the
-/// asked angles and the filter's reach beyond them are computed. Columns run in parallel, the
+/// `scatter` then gives the intensities of a few drops at. Only the asked angles and the filter's reach beyond them are computed. Columns run in parallel, the
 /// largest drops first.
 ///
 /// # Errors
@@ -102,7 +120,7 @@ pub fn diagram<A, E, P, F>(
 where
     E: From<LeeError> + Send,
     P: Fn(&[f64]) -> A + Sync,
-    F: Fn(f64, f64, Complex64, &A) -> Result<Vec<Intensity>, E> + Sync,
+    F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
     check(request)?;
     let index = request.medium.index(MIDDLE).map_err(LeeError::from)?.re;
@@ -141,10 +159,10 @@ fn column<A, E, P, F>(
 where
     E: From<LeeError> + Send,
     P: Fn(&[f64]) -> A + Sync,
-    F: Fn(f64, f64, Complex64, &A) -> Result<Vec<Intensity>, E> + Sync,
+    F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
     let filter = request.sun_disc.then(|| SunFilter::new(sampling.cutoff, TRANSITION));
-    let weights = weights(request, &sampling.wavelengths);
+    let weights = weights(request, sampling);
     let bands = sampling
         .bands
         .par_iter()
@@ -158,13 +176,20 @@ where
             };
             let angles = prepare(&theta);
             let mut sums = vec![[0.0; 6]; theta.len()];
-            for i in band.places.clone() {
-                let wavelength = sampling.wavelengths[i];
-                let index = request.medium.index(wavelength).map_err(LeeError::from)?;
-                let size = size_of(radius, request.size_spread, i);
-                let intensities = scatter(size, wavelength, index, &angles)?;
-                let scale = (wavelength / TAU).powi(2) / (PI * radius * radius);
-                add(&mut sums, &intensities, weights[i].map(|w| w * scale));
+            for first in band.places.clone().step_by(TOGETHER) {
+                let places = first..(first + TOGETHER).min(band.places.end);
+                let drop = |i: usize| {
+                    let wavelength = sampling.wavelengths[i];
+                    let index = request.medium.index(wavelength)?;
+                    let radius = size_of(radius, request.size_spread, i);
+                    Ok(Drop { radius, wavelength, index })
+                };
+                let drops: Vec<Drop> =
+                    places.map(drop).collect::<Result<_, LeeError>>().map_err(E::from)?;
+                for (k, intensities) in scatter(&drops, &angles)?.iter().enumerate() {
+                    let scale = (drops[k].wavelength / TAU).powi(2) / (PI * radius * radius);
+                    add(&mut sums, intensities, weights[first + k].map(|w| w * scale));
+                }
             }
             let Some(filter) = &filter else { return Ok(sums) };
             let middle = sampling.wavelengths[(band.places.start + band.places.end) / 2];
@@ -187,10 +212,10 @@ fn add(sums: &mut [Stimuli], intensities: &[Intensity], weight: [f64; 3]) {
     }
 }
 
-/// Weights of wavelengths that stand for equal intervals of the wavenumber.
-fn weights(request: &Request, wavelengths: &[f64]) -> Vec<[f64; 3]> {
-    let widths: Vec<f64> = wavelengths.iter().map(|w| w * w).collect();
-    ColorWeights::quadrature(wavelengths, &widths, request.illuminant, request.observer).weights
+/// Weights of the wavelengths for X, Y and Z.
+fn weights(request: &Request, sampling: &Sampling) -> Vec<[f64; 3]> {
+    let Sampling { wavelengths, widths, .. } = sampling;
+    ColorWeights::quadrature(wavelengths, widths, request.illuminant, request.observer).weights
 }
 
 impl Request {

@@ -7,7 +7,8 @@
 //!   colours average them out as well, so that the filter of [`SunFilter`](super::SunFilter) drops
 //!   them. The intensity of a drop holds no frequency above `2x` (partial waves end near n = x). A
 //!   grid of step `2π / (2x + cut-off + transition)` therefore gives the average without aliasing.
-//! - **Wavelengths** stand evenly in the wavenumber. What passes the filter are beats of nearly the
+//! - **Wavelengths** stand unevenly, most densely where the eye weighs most (`wavelengths.rs`); an
+//!   even grid falls into step with pairs of rays. What passes the filter are beats of nearly the
 //!   same way through the drop, few over the visible; a moderate number of wavelengths resolves
 //!   them. Small drops need more: there nearly every beat passes.
 //! - **Resonances** of light that runs round inside recur in the size parameter at the spacing
@@ -15,16 +16,18 @@
 //!   nearly commensurate with it hits or misses all of them alike. The number of wavelengths is
 //!   moved to the nearest one whose step is a whole number of spacings and the golden section.
 
+use super::wavelengths::{BAND, nodes};
 use crate::color::SUN_ANGULAR_RADIUS;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// Visible range of the integral: beyond it lies less than 1e-3 of any stimulus.
-const BAND: (f64, f64) = (380e-9, 735e-9);
 /// Cut-off of the filter: this share of the size parameter …
-const CUTOFF_SHARE: f64 = 0.45;
-/// … and never less, or more: from here the disc has damped a beat to 4 %.
-const CUTOFF: (f64, f64) = (500.0, 2500.0);
+const CUTOFF_SHARE: f64 = 0.3;
+/// … and never less, or more: from here the disc has damped a beat to 10 %, and its path difference
+/// is more than the colours resolve.
+const CUTOFF: (f64, f64) = (500.0, 1500.0);
+/// The most near the axis, where path differences are small.
+const CUTOFF_NEAR_AXIS: f64 = 2500.0;
 /// Width over which the filter falls from 1 to 0; its kernel is then shorter than five disc radii.
 pub const TRANSITION: f64 = 1000.0;
 /// Closer to the axis than this, beats between opposite sides of the drop are slow in wavelength.
@@ -33,10 +36,10 @@ const NEAR_AXIS: f64 = 15.0 * PI / 180.0;
 const BEYOND_EDGE: f64 = 15.0;
 /// Number of wavelengths: for small drops; from which size parameter it falls, and with which
 /// power; and the least. Measured, see `validation/look.md`.
-const MOST: f64 = 1200.0;
-const FALLS_FROM: f64 = 520.0;
+const MOST: f64 = 900.0;
+const FALLS_FROM: f64 = 900.0;
 const FALLS_AS: f64 = 1.3;
-const LEAST: f64 = 60.0;
+const LEAST: f64 = 70.0;
 /// The same of waves without beats between orders: a few beats of the supernumerary bows remain.
 const MOST_APART: f64 = 64.0;
 const LEAST_APART: f64 = 40.0;
@@ -83,8 +86,10 @@ pub struct SamplingNeed {
 /// How finely one column is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampling {
-    /// Wavelengths, metres, in the middles of equal intervals of the wavenumber, descending.
+    /// Wavelengths, metres, descending.
     pub wavelengths: Vec<f64>,
+    /// Interval of wavelength that each stands for, up to a common factor.
+    pub widths: Vec<f64>,
     /// Beats that are kept, radians⁻¹.
     pub cutoff: f64,
     /// Wavelengths (places in the list above) that share a grid of angles.
@@ -109,9 +114,7 @@ impl Sampling {
             Beats::All => off_resonance(wanted, range, need.index),
             Beats::WithinOrders => wanted.ceil() as usize,
         };
-        let width = (wavenumbers.1 - wavenumbers.0) / count as f64;
-        let wavelengths: Vec<f64> =
-            (0..count).map(|i| TAU / (wavenumbers.0 + (i as f64 + 0.5) * width)).collect();
+        let (wavelengths, widths) = nodes(count);
         // Sizes reach this far above the nominal one.
         let largest = need.radius * (LARGEST_QUANTILE * need.size_spread).exp();
         let share = if need.beats == Beats::All || near_axis(need) { 2.0 } else { WITHIN_ORDER };
@@ -125,7 +128,7 @@ impl Sampling {
                 Band { places, step: TAU / (highest + cutoff + TRANSITION) }
             })
             .collect();
-        Self { wavelengths, cutoff, bands }
+        Self { wavelengths, widths, cutoff, bands }
     }
 
     /// Number of directions × wavelengths over a span of angles.
@@ -180,8 +183,9 @@ fn off_resonance(wanted: f64, range: f64, index: f64) -> usize {
 /// Cut-off of the filter in angular frequency.
 fn cutoff(need: &SamplingNeed) -> f64 {
     let size_parameter = TAU * need.radius / 550e-9;
-    let share = if near_axis(need) { 2.0 } else { CUTOFF_SHARE };
-    need.fineness * (share * size_parameter).clamp(CUTOFF.0, CUTOFF.1)
+    let (share, most) =
+        if near_axis(need) { (2.0, CUTOFF_NEAR_AXIS) } else { (CUTOFF_SHARE, CUTOFF.1) };
+    need.fineness * (share * size_parameter).clamp(CUTOFF.0, most)
 }
 
 fn near_axis(need: &SamplingNeed) -> bool {

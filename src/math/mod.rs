@@ -2,6 +2,7 @@
 
 pub mod airy;
 pub mod chebyshev;
+pub mod cosine_series;
 pub mod fused;
 pub mod gauss_legendre;
 pub mod interpolate;

@@ -19,6 +19,8 @@
 //! so that one recurrence and four complex sums serve θ and π - θ together. Where all angles lie on
 //! one side of π/2, the other side's two sums are left out.
 //!
+//! Several series that want the same angles may share the recurrence too: it is half the work of one.
+//!
 //! Angles run in SIMD lanes, a block of lanes is carried over a chunk of orders whose
 //! coefficients stay in the first-level cache, and its state is kept between chunks.
 
@@ -91,6 +93,11 @@ impl AngleSet {
         self.place.len()
     }
 
+    /// Number of recurrences that serve them.
+    pub fn recurrences(&self) -> usize {
+        self.t.len()
+    }
+
     /// Whether no angle was asked for.
     pub fn is_empty(&self) -> bool {
         self.place.is_empty()
@@ -100,11 +107,9 @@ impl AngleSet {
 /// What one order contributes, broadcast over the angles.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct OrderRecord {
-    /// (2n+1)(a_n + b_n).
-    sum: [f64; 2],
-    /// (2n+1)(a_n - b_n).
-    difference: [f64; 2],
+struct OrderRecord<const W: usize> {
+    /// (2n+1)(a_n + b_n) and (2n+1)(a_n - b_n) of every series: real and imaginary parts.
+    coefficients: [[f64; 4]; W],
     /// (2n+1)/(n(n+1)).
     weight: f64,
     /// n + 1.
@@ -115,16 +120,28 @@ struct OrderRecord {
     double_inverse: f64,
 }
 
-/// The records of orders `first + 1 …` (index 0 of `a`, `b` is n = 1).
-fn fill_records(first: usize, a: &[Complex64], b: &[Complex64], out: &mut Vec<OrderRecord>) {
+/// Partial-wave coefficients a_n and b_n; index 0 is n = 1.
+pub type Waves<'a> = (&'a [Complex64], &'a [Complex64]);
+
+/// The records of the orders `orders` (from 0: n - 1); a series that is over has zeros.
+fn fill_records<const W: usize>(
+    orders: std::ops::Range<usize>,
+    series: &[Waves; W],
+    out: &mut Vec<OrderRecord<W>>,
+) {
     out.clear();
-    out.extend(a.iter().zip(b).enumerate().map(|(k, (a, b))| {
-        let n = (first + k + 1) as f64;
+    out.extend(orders.map(|k| {
+        let n = (k + 1) as f64;
         let (odd, product) = (2.0 * n + 1.0, n * (n + 1.0));
-        let (sum, difference) = ((a + b) * odd, (a - b) * odd);
+        let coefficients = series.map(|(a, b)| match (a.get(k), b.get(k)) {
+            (Some(a), Some(b)) => {
+                let (sum, difference) = ((a + b) * odd, (a - b) * odd);
+                [sum.re, sum.im, difference.re, difference.im]
+            }
+            _ => [0.0; 4],
+        });
         OrderRecord {
-            sum: [sum.re, sum.im],
-            difference: [difference.re, difference.im],
+            coefficients,
             weight: odd / product,
             next: n + 1.0,
             inverse_next: 1.0 / (n + 1.0),
@@ -136,20 +153,20 @@ fn fill_records(first: usize, a: &[Complex64], b: &[Complex64], out: &mut Vec<Or
 /// Recurrence and partial sums of one block of angles.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Block {
+struct Block<const W: usize> {
     d: Lanes,
     pi: Lanes,
     t: Lanes,
-    /// Re, Im of S1 + S2 at θ, S1 - S2 at θ, S1 + S2 at π - θ, S1 - S2 at π - θ.
-    sums: [Lanes; 8],
+    /// Re, Im of S1 + S2 at θ, S1 - S2 at θ, S1 + S2 at π - θ, S1 - S2 at π - θ of every series.
+    sums: [[Lanes; 8]; W],
 }
 
-impl Block {
+impl<const W: usize> Block<W> {
     /// The state before n = 1: d_1 = π_1 = 1.
     fn new(t: &[f64]) -> Self {
         let mut lanes = [0.0; LANES];
         lanes.copy_from_slice(t);
-        Self { d: [1.0; LANES], pi: [1.0; LANES], t: lanes, sums: [[0.0; LANES]; 8] }
+        Self { d: [1.0; LANES], pi: [1.0; LANES], t: lanes, sums: [[[0.0; LANES]; 8]; W] }
     }
 }
 
@@ -159,37 +176,41 @@ impl Block {
     "x86_64+avx2+fma",
     "aarch64+neon"
 ))]
-fn advance(blocks: &mut [Block], records: &[OrderRecord], sides: Sides) {
+fn advance<const W: usize>(blocks: &mut [Block<W>], records: &[OrderRecord<W>], sides: Sides) {
     if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-        advance_sides::<true>(blocks, records, sides);
+        advance_sides::<W, true>(blocks, records, sides);
     } else {
-        advance_sides::<false>(blocks, records, sides);
+        advance_sides::<W, false>(blocks, records, sides);
     }
 }
 
 #[inline(always)]
-fn advance_sides<const FMA: bool>(blocks: &mut [Block], records: &[OrderRecord], sides: Sides) {
+fn advance_sides<const W: usize, const FMA: bool>(
+    blocks: &mut [Block<W>],
+    records: &[OrderRecord<W>],
+    sides: Sides,
+) {
     match sides {
-        Sides::Forward => advance_blocks::<FMA, true, false>(blocks, records),
-        Sides::Backward => advance_blocks::<FMA, false, true>(blocks, records),
-        Sides::Both => advance_blocks::<FMA, true, true>(blocks, records),
+        Sides::Forward => advance_blocks::<W, FMA, true, false>(blocks, records),
+        Sides::Backward => advance_blocks::<W, FMA, false, true>(blocks, records),
+        Sides::Both => advance_blocks::<W, FMA, true, true>(blocks, records),
     }
 }
 
 #[inline(always)]
-fn advance_blocks<const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
-    blocks: &mut [Block],
-    records: &[OrderRecord],
+fn advance_blocks<const W: usize, const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
+    blocks: &mut [Block<W>],
+    records: &[OrderRecord<W>],
 ) {
     for block in blocks {
         let mut state = *block;
         let mut pairs = records.chunks_exact(2);
         for pair in &mut pairs {
-            step::<FMA, FORWARD, BACKWARD>(&mut state, &pair[0], 1.0);
-            step::<FMA, FORWARD, BACKWARD>(&mut state, &pair[1], -1.0);
+            step::<W, FMA, FORWARD, BACKWARD>(&mut state, &pair[0], 1.0);
+            step::<W, FMA, FORWARD, BACKWARD>(&mut state, &pair[1], -1.0);
         }
         for record in pairs.remainder() {
-            step::<FMA, FORWARD, BACKWARD>(&mut state, record, 1.0);
+            step::<W, FMA, FORWARD, BACKWARD>(&mut state, record, 1.0);
         }
         *block = state;
     }
@@ -197,51 +218,67 @@ fn advance_blocks<const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
 
 /// Add one order and move the recurrence to the next; `parity` is (-1)^{n+1}.
 #[inline(always)]
-fn step<const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
-    state: &mut Block,
-    order: &OrderRecord,
+fn step<const W: usize, const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
+    state: &mut Block<W>,
+    order: &OrderRecord<W>,
     parity: f64,
 ) {
-    let mirrored = [order.sum[0], order.sum[1], order.difference[0], order.difference[1]]
-        .map(|coefficient| parity * coefficient);
+    let fma = multiply_add::<FMA>;
+    let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
     for l in 0..LANES {
-        let fma = multiply_add::<FMA>;
         let (pi, t) = (state.pi[l], state.t[l]);
         let scaled = t * pi;
-        let u = fma(-scaled, order.inverse_next, state.d[l]);
-        let v = fma(pi, order.double_inverse, -u);
-        if FORWARD {
-            state.sums[0][l] = fma(order.sum[0], u, state.sums[0][l]);
-            state.sums[1][l] = fma(order.sum[1], u, state.sums[1][l]);
-            state.sums[2][l] = fma(order.difference[0], v, state.sums[2][l]);
-            state.sums[3][l] = fma(order.difference[1], v, state.sums[3][l]);
-        }
-        if BACKWARD {
-            state.sums[4][l] = fma(mirrored[0], v, state.sums[4][l]);
-            state.sums[5][l] = fma(mirrored[1], v, state.sums[5][l]);
-            state.sums[6][l] = fma(mirrored[2], u, state.sums[6][l]);
-            state.sums[7][l] = fma(mirrored[3], u, state.sums[7][l]);
-        }
+        u[l] = fma(-scaled, order.inverse_next, state.d[l]);
+        v[l] = fma(pi, order.double_inverse, -u[l]);
         let d = fma(-scaled, order.weight, state.d[l]);
         state.d[l] = d;
         state.pi[l] = fma(order.next, d, pi);
     }
+    for w in 0..W {
+        let direct = order.coefficients[w];
+        let mirrored = direct.map(|coefficient| parity * coefficient);
+        let sums = &mut state.sums[w];
+        for l in 0..LANES {
+            if FORWARD {
+                sums[0][l] = fma(direct[0], u[l], sums[0][l]);
+                sums[1][l] = fma(direct[1], u[l], sums[1][l]);
+                sums[2][l] = fma(direct[2], v[l], sums[2][l]);
+                sums[3][l] = fma(direct[3], v[l], sums[3][l]);
+            }
+            if BACKWARD {
+                sums[4][l] = fma(mirrored[0], v[l], sums[4][l]);
+                sums[5][l] = fma(mirrored[1], v[l], sums[5][l]);
+                sums[6][l] = fma(mirrored[2], u[l], sums[6][l]);
+                sums[7][l] = fma(mirrored[3], u[l], sums[7][l]);
+            }
+        }
+    }
 }
 
 /// Run all orders over some blocks.
-fn run(blocks: &mut [Block], a: &[Complex64], b: &[Complex64], sides: Sides) {
+fn run<const W: usize>(blocks: &mut [Block<W>], series: &[Waves; W], sides: Sides) {
+    let longest = series.iter().map(|(a, _)| a.len()).max().unwrap_or(0);
     let mut records = Vec::with_capacity(CHUNK);
-    for (chunk, (a, b)) in a.chunks(CHUNK).zip(b.chunks(CHUNK)).enumerate() {
-        fill_records(chunk * CHUNK, a, b, &mut records);
+    for first in (0..longest).step_by(CHUNK) {
+        fill_records(first..(first + CHUNK).min(longest), series, &mut records);
         advance(blocks, &records, sides);
     }
 }
 
 /// S1 and S2 at every angle from partial-wave coefficients (`a[0]` is n = 1), on this thread.
 pub fn amplitudes(a: &[Complex64], b: &[Complex64], set: &AngleSet) -> Vec<(Complex64, Complex64)> {
-    let mut blocks: Vec<Block> = set.t.chunks_exact(LANES).map(Block::new).collect();
-    run(&mut blocks, a, b, set.sides);
-    collect(&blocks, set)
+    let [out] = amplitudes_together([(a, b)], set);
+    out
+}
+
+/// As [`amplitudes`], of several series at the same angles; each comes out as it does alone.
+pub fn amplitudes_together<const W: usize>(
+    series: [Waves; W],
+    set: &AngleSet,
+) -> [Vec<(Complex64, Complex64)>; W] {
+    let mut blocks: Vec<Block<W>> = set.t.chunks_exact(LANES).map(Block::new).collect();
+    run(&mut blocks, &series, set.sides);
+    std::array::from_fn(|w| collect(&blocks, w, set))
 }
 
 /// As [`amplitudes`], the blocks of angles shared among the threads of rayon.
@@ -250,20 +287,24 @@ pub fn amplitudes_parallel(
     b: &[Complex64],
     set: &AngleSet,
 ) -> Vec<(Complex64, Complex64)> {
-    let mut blocks: Vec<Block> = set.t.chunks_exact(LANES).map(Block::new).collect();
+    let mut blocks: Vec<Block<1>> = set.t.chunks_exact(LANES).map(Block::new).collect();
     let share = blocks.len().div_ceil(4 * rayon::current_num_threads()).max(1);
-    blocks.par_chunks_mut(share).for_each(|part| run(part, a, b, set.sides));
-    collect(&blocks, set)
+    blocks.par_chunks_mut(share).for_each(|part| run(part, &[(a, b)], set.sides));
+    collect(&blocks, 0, set)
 }
 
-/// Take S1 and S2 apart again and put them in the order asked for.
-fn collect(blocks: &[Block], set: &AngleSet) -> Vec<(Complex64, Complex64)> {
+/// Take S1 and S2 of one series apart again and put them in the order asked for.
+fn collect<const W: usize>(
+    blocks: &[Block<W>],
+    series: usize,
+    set: &AngleSet,
+) -> Vec<(Complex64, Complex64)> {
     set.place
         .iter()
         .map(|&(place, beyond)| {
             let (block, lane) = (&blocks[place / LANES], place % LANES);
             let first = if beyond { 4 } else { 0 };
-            let at = |k: usize| block.sums[first + k][lane];
+            let at = |k: usize| block.sums[series][first + k][lane];
             let sum = Complex64::new(at(0), at(1));
             let difference = Complex64::new(at(2), at(3));
             (0.5 * (sum + difference), 0.5 * (sum - difference))
@@ -312,6 +353,17 @@ mod tests {
             mixed.pop();
             assert_eq!(amplitudes(&a, &b, &one), mixed);
         }
+    }
+
+    #[test]
+    fn series_together_are_as_alone() {
+        let theta: Vec<f64> = (0..77).map(|k| 2.0 + f64::from(k) * 0.01).collect();
+        let a: Vec<_> = (0..600).map(|n| Complex64::cis(f64::from(n * n) * 0.01)).collect();
+        let b: Vec<_> = a.iter().rev().copied().collect();
+        let set = AngleSet::new(&theta);
+        let [one, other] = amplitudes_together([(&a, &b), (&b[..500], &a[..500])], &set);
+        assert_eq!(one, amplitudes(&a, &b, &set));
+        assert_eq!(other, amplitudes(&b[..500], &a[..500], &set));
     }
 
     #[test]

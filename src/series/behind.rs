@@ -13,7 +13,8 @@
 //! So no resonance, however narrow, needs a sample of its own.
 
 use super::debye::Behind;
-use num_complex::Complex64;
+use super::stretch::{End, Parts, add_means};
+use multiversion::multiversion;
 use rayon::prelude::*;
 
 /// Pairs of partial waves up to this distance keep step long enough to count. Measured: 8 and 16
@@ -21,173 +22,198 @@ use rayon::prelude::*;
 const PAIRS: usize = 9;
 /// Waves with less power than this behind the cut are left out.
 const FAINT: f64 = 1e-13;
-/// Where u turns by less than this fraction of |1 - u| the mean of both ends is as good.
-const STRAIGHT: f64 = 1e-3;
 
-/// Mean products of the waves n and n + d.
-#[derive(Clone, Copy, Debug, Default)]
-struct Pair {
-    /// a_n a*_m, b_n b*_m, a_n b*_m, b_n a*_m.
-    aa: Complex64,
-    bb: Complex64,
-    ab: Complex64,
-    ba: Complex64,
-}
-
-/// Sums of products over sizes; index `(n - 1) * PAIRS + d`.
+/// Sums of products of the waves n and n + d over sizes, index n - 1 in each list.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Products {
-    pairs: Vec<Pair>,
+    waves: usize,
+    by_distance: [Pairs; PAIRS],
+}
+
+/// Products of two waves: a_n a*_m, b_n b*_m, a_n b*_m, b_n a*_m.
+#[derive(Clone, Debug, Default)]
+struct Pairs {
+    aa: Parts,
+    bb: Parts,
+    ab: Parts,
+    ba: Parts,
 }
 
 /// The waves behind the cut of one size.
 #[derive(Clone, Debug)]
 pub(super) struct Waves {
-    pub electric: Vec<Behind>,
-    pub magnetic: Vec<Behind>,
-    /// What this size counts.
-    pub weight: f64,
+    electric: End,
+    magnetic: End,
+    /// Places of the waves that count.
+    counting: std::ops::Range<usize>,
+}
+
+impl Waves {
+    /// The waves of a size that counts `weight`.
+    pub fn new(electric: &[Behind], magnetic: &[Behind], weight: f64) -> Self {
+        let counts = |wave: &Behind| {
+            let power = wave.first.norm_sqr();
+            power > 0.0 && power > FAINT * (1.0 - wave.internal.norm_sqr())
+        };
+        let either = |n: &usize| counts(&electric[*n]) || counts(&magnetic[*n]);
+        let first = (0..electric.len()).find(either).unwrap_or(electric.len());
+        let end = (first..electric.len()).rfind(either).map_or(first, |last| last + 1);
+        let (electric, magnetic) = (End::new(electric, weight), End::new(magnetic, weight));
+        Self { electric, magnetic, counting: first..end }
+    }
 }
 
 impl Products {
     /// Add the stretch between two neighbouring sizes, both of which count half.
     pub fn add_stretch(&mut self, from: &Waves, to: &Waves) {
-        let count = from.electric.len().min(to.electric.len());
-        let power = |wave: &Behind| wave.first.norm_sqr() / (1.0 - wave.internal.norm_sqr());
-        let counts = |n: usize| {
-            let waves = [&from.electric[n], &from.magnetic[n], &to.electric[n], &to.magnetic[n]];
-            waves.iter().any(|wave| wave.first.norm_sqr() > 0.0 && power(wave) > FAINT)
-        };
-        let Some(first) = (0..count).find(|&n| counts(n)) else { return };
-        let last = (first..count).rfind(|&n| counts(n)).unwrap_or(first);
-        if self.pairs.len() < (last + 1) * PAIRS {
-            self.pairs.resize((last + 1) * PAIRS, Pair::default());
+        let common = from.electric.len().min(to.electric.len());
+        let first = from.counting.start.min(to.counting.start);
+        let end = from.counting.end.max(to.counting.end).min(common);
+        if first >= end {
+            return;
         }
-        let [electric, magnetic] = [
-            stretches(&from.electric, &to.electric, from.weight, to.weight),
-            stretches(&from.magnetic, &to.magnetic, from.weight, to.weight),
-        ];
-        for n in first..=last {
-            for d in 0..PAIRS.min(last + 1 - n) {
-                let pair = &mut self.pairs[n * PAIRS + d];
-                pair.aa += electric[n].mean(&electric[n + d]);
-                pair.bb += magnetic[n].mean(&magnetic[n + d]);
-                pair.ab += electric[n].mean(&magnetic[n + d]);
-                pair.ba += magnetic[n].mean(&electric[n + d]);
+        self.resize(self.waves.max(end));
+        let electric = [&from.electric, &to.electric];
+        let magnetic = [&from.magnetic, &to.magnetic];
+        for (d, pairs) in self.by_distance.iter_mut().enumerate().take(end - first) {
+            let places = first..end - d;
+            add_means(electric, electric, d, places.clone(), &mut pairs.aa);
+            add_means(magnetic, magnetic, d, places.clone(), &mut pairs.bb);
+            add_means(electric, magnetic, d, places.clone(), &mut pairs.ab);
+            add_means(magnetic, electric, d, places, &mut pairs.ba);
+        }
+    }
+
+    fn resize(&mut self, waves: usize) {
+        self.waves = waves;
+        for pairs in &mut self.by_distance {
+            for parts in [&mut pairs.aa, &mut pairs.bb, &mut pairs.ab, &mut pairs.ba] {
+                parts.resize(waves);
             }
         }
     }
 
     /// Add another sum.
     pub fn add(&mut self, other: &Products) {
-        if self.pairs.len() < other.pairs.len() {
-            self.pairs.resize(other.pairs.len(), Pair::default());
+        self.resize(self.waves.max(other.waves));
+        for (to, from) in self.by_distance.iter_mut().zip(&other.by_distance) {
+            to.aa.add(&from.aa);
+            to.bb.add(&from.bb);
+            to.ab.add(&from.ab);
+            to.ba.add(&from.ba);
         }
-        for (sum, pair) in self.pairs.iter_mut().zip(&other.pairs) {
-            sum.aa += pair.aa;
-            sum.bb += pair.bb;
-            sum.ab += pair.ab;
-            sum.ba += pair.ba;
-        }
+    }
+
+    /// Number of partial waves that count.
+    pub fn waves(&self) -> usize {
+        self.waves
     }
 
     /// S11, S12, S33 and S34 at scattering angles (radians).
     pub fn elements(&self, theta: &[f64]) -> Vec<[f64; 4]> {
-        let waves = self.pairs.len() / PAIRS;
-        theta.par_iter().map(|&theta| self.elements_at(waves, theta)).collect()
-    }
-
-    fn elements_at(&self, waves: usize, theta: f64) -> [f64; 4] {
-        let (pi, tau) = angular(waves, theta);
-        let mut sum = [0.0; 4];
-        for n in 0..waves {
-            for d in 0..PAIRS.min(waves - n) {
-                let Pair { aa, bb, ab, ba } = self.pairs[n * PAIRS + d];
-                let (p, t, q, u) = (pi[n], tau[n], pi[n + d], tau[n + d]);
-                // The pair (n, n+d) and the pair (n+d, n), which are one for d = 0.
-                let half = if d == 0 { 0.5 } else { 1.0 };
-                let (even, odd) = (p * q + t * u, t * u - p * q);
-                let (cross, skew) = (p * u + t * q, t * q - p * u);
-                sum[0] += half * ((aa.re + bb.re) * even + (ab.re + ba.re) * cross);
-                sum[1] += half * ((aa.re - bb.re) * odd + (ab.re - ba.re) * skew);
-                sum[2] += half * ((aa.re + bb.re) * cross + (ab.re + ba.re) * even);
-                sum[3] += half * ((aa.im - bb.im) * skew + (ab.im - ba.im) * odd);
+        let factors: Vec<[Factors; PAIRS]> = (0..self.waves)
+            .map(|n| std::array::from_fn(|d| Factors::new(&self.by_distance[d], n)))
+            .collect();
+        let mut out = vec![[0.0; 4]; theta.len()];
+        out.par_chunks_mut(LANES).zip(theta.par_chunks(LANES)).for_each(|(out, theta)| {
+            let mut cosines = [0.0; LANES];
+            cosines.iter_mut().zip(theta).for_each(|(cosine, theta)| *cosine = theta.cos());
+            let sums = elements_at(&factors, &angular(self.waves, &cosines));
+            for (l, row) in out.iter_mut().enumerate() {
+                *row = sums.map(|lanes| lanes[l]);
             }
-        }
-        sum
+        });
+        out
     }
 
     /// Σ (2n+1)(|a_n|² + |b_n|²), and the sum of Bohren & Huffman's sec. 4.5 for the asymmetry.
     pub fn sums(&self) -> (f64, f64) {
         let (mut scattered, mut forward) = (0.0, 0.0);
-        for (k, pairs) in self.pairs.chunks_exact(PAIRS).enumerate() {
+        let [same, next, ..] = &self.by_distance;
+        for k in 0..self.waves {
             let n = (k + 1) as f64;
-            scattered += (2.0 * n + 1.0) * (pairs[0].aa.re + pairs[0].bb.re);
-            forward += (2.0 * n + 1.0) / (n * (n + 1.0)) * pairs[0].ab.re;
-            forward += n * (n + 2.0) / (n + 1.0) * (pairs[1].aa.re + pairs[1].bb.re);
+            scattered += (2.0 * n + 1.0) * (same.aa.re[k] + same.bb.re[k]);
+            forward += (2.0 * n + 1.0) / (n * (n + 1.0)) * same.ab.re[k];
+            forward += n * (n + 2.0) / (n + 1.0) * (next.aa.re[k] + next.bb.re[k]);
         }
         (scattered, forward)
     }
 }
 
-/// One wave on the way from one size to the next.
-#[derive(Clone, Copy)]
-struct Stretch {
-    /// First order behind the cut, with the root of the weight, at both ends.
-    first: [Complex64; 2],
-    internal: [Complex64; 2],
-    /// 1/R11, or 0 where nothing turns.
-    inverse: [Complex64; 2],
+/// Angles carried together.
+const LANES: usize = 16;
+type Lanes = [f64; LANES];
+
+/// What a pair of waves counts for the products of π_n, τ_n with those of its partner.
+#[derive(Clone, Copy, Debug)]
+struct Factors {
+    same: f64,
+    mixed: f64,
+    same_difference: f64,
+    mixed_difference: f64,
+    same_skew: f64,
+    mixed_skew: f64,
 }
 
-fn stretches(from: &[Behind], to: &[Behind], before: f64, after: f64) -> Vec<Stretch> {
-    let inverse = |r: Complex64| if r.norm_sqr() < 1e-6 { Complex64::ZERO } else { r.inv() };
-    let (before, after) = ((0.5 * before).sqrt(), (0.5 * after).sqrt());
-    from.iter()
-        .zip(to)
-        .map(|(a, b)| Stretch {
-            first: [a.first * before, b.first * after],
-            internal: [a.internal, b.internal],
-            inverse: [inverse(a.internal), inverse(b.internal)],
-        })
-        .collect()
-}
-
-impl Stretch {
-    /// Mean of the geometric sum of the products with another wave, times the weight.
-    fn mean(&self, other: &Stretch) -> Complex64 {
-        let end = |k: usize| {
-            let steps = 1.0 + self.inverse[k] + other.inverse[k].conj();
-            let power = self.first[k] * other.first[k].conj() * steps;
-            (power, self.internal[k] * other.internal[k].conj())
-        };
-        let ((p0, u0), (p1, u1)) = (end(0), end(1));
-        let (d0, d1) = (1.0 - u0, 1.0 - u1);
-        let (n0, n1) = (d0.norm_sqr(), d1.norm_sqr());
-        if n0.min(n1) < f64::EPSILON * f64::EPSILON {
-            return Complex64::ZERO;
+impl Factors {
+    fn new(Pairs { aa, bb, ab, ba }: &Pairs, n: usize) -> Self {
+        Self {
+            same: aa.re[n] + bb.re[n],
+            mixed: ab.re[n] + ba.re[n],
+            same_difference: aa.re[n] - bb.re[n],
+            mixed_difference: ab.re[n] - ba.re[n],
+            same_skew: aa.im[n] - bb.im[n],
+            mixed_skew: ab.im[n] - ba.im[n],
         }
-        let turn = (u1 - u0).norm_sqr();
-        if turn < STRAIGHT * n0.min(n1) || turn < 1e-28 {
-            return p0 * d0.conj() / n0 + p1 * d1.conj() / n1;
-        }
-        (p0 + p1) * (1.0 - (d1.ln() - d0.ln()) / (u1 / u0).ln())
     }
 }
 
-/// `(2n+1)/(n(n+1))` times π_n and τ_n for n = 1 … `count`.
-fn angular(count: usize, theta: f64) -> (Vec<f64>, Vec<f64>) {
-    let cosine = theta.cos();
-    let (mut before, mut now) = (0.0, 1.0);
+/// S11, S12, S33 and S34 at some angles from π_n and τ_n there.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
+fn elements_at(factors: &[[Factors; PAIRS]], angular: &[(Lanes, Lanes)]) -> [Lanes; 4] {
+    let mut total = [[0.0; LANES]; 4];
+    for (n, (p, t)) in angular.iter().enumerate() {
+        let mut sum = [[0.0; LANES]; 4];
+        for (d, (q, u)) in angular[n..].iter().take(PAIRS).enumerate() {
+            let f = factors[n][d];
+            for l in 0..LANES {
+                let (pq, tu, pu, tq) = (p[l] * q[l], t[l] * u[l], p[l] * u[l], t[l] * q[l]);
+                let (even, odd, cross, skew) = (pq + tu, tu - pq, pu + tq, tq - pu);
+                sum[0][l] += f.same * even + f.mixed * cross;
+                sum[1][l] += f.same_difference * odd + f.mixed_difference * skew;
+                sum[2][l] += f.same * cross + f.mixed * even;
+                sum[3][l] += f.same_skew * skew + f.mixed_skew * odd;
+            }
+            // The pair (n, n+d) and the pair (n+d, n), which are one for d = 0.
+            if d == 0 {
+                sum.iter_mut().flatten().for_each(|value| *value *= 0.5);
+            }
+        }
+        total.iter_mut().flatten().zip(sum.iter().flatten()).for_each(|(to, from)| *to += from);
+    }
+    total
+}
+
+/// `(2n+1)/(n(n+1))` times π_n and τ_n for n = 1 … `count` at some cos θ.
+fn angular(count: usize, cosines: &Lanes) -> Vec<(Lanes, Lanes)> {
+    let (mut before, mut now) = ([0.0; LANES], [1.0; LANES]);
     (1..=count)
         .map(|n| {
             let n = n as f64;
-            let tau = n * cosine * now - (n + 1.0) * before;
             let weight = (2.0 * n + 1.0) / (n * (n + 1.0));
-            let pair = (weight * now, weight * tau);
-            let next = ((2.0 * n + 1.0) * cosine * now - (n + 1.0) * before) / n;
-            (before, now) = (now, next);
-            pair
+            let (mut pi, mut tau) = ([0.0; LANES], [0.0; LANES]);
+            for l in 0..LANES {
+                pi[l] = weight * now[l];
+                tau[l] = weight * (n * cosines[l] * now[l] - (n + 1.0) * before[l]);
+                let next =
+                    ((2.0 * n + 1.0) * cosines[l] * now[l] - (n + 1.0) * before[l]) * n.recip();
+                (before[l], now[l]) = (now[l], next);
+            }
+            (pi, tau)
         })
-        .unzip()
+        .collect()
 }

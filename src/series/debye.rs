@@ -58,6 +58,8 @@ struct Interface {
     transmission: Complex64,
     /// T21 T12 / (1 - R11): all internal orders.
     all_internal: Complex64,
+    /// What the whole wave absorbs: `Re a - |a|²`.
+    absorbed: f64,
 }
 
 /// The series cut behind an order. What is kept has no feature in x finer than the longest path
@@ -150,6 +152,15 @@ impl DebyeSeries {
         }
     }
 
+    /// Absorption efficiency: no cut of the series comes in.
+    pub fn q_abs(&self) -> f64 {
+        let waves = self.electric.iter().zip(&self.magnetic).enumerate();
+        let absorbed = |(k, (e, m)): (usize, (&Interface, &Interface))| {
+            (2 * k + 3) as f64 * (e.absorbed + m.absorbed)
+        };
+        2.0 / (self.size_parameter * self.size_parameter) * waves.map(absorbed).sum::<f64>()
+    }
+
     /// The series cut behind an order: see [`Cut`].
     pub fn cut(&self, last: u32) -> Cut {
         let (a, electric) = self.electric.iter().map(|wave| wave.cut(last)).unzip();
@@ -209,7 +220,7 @@ fn inside_waves(y: Complex64, terms: usize) -> Vec<Inside> {
         }
         let outgoing = before / z - n as f64 * inverse;
         let square = phase * z * z;
-        evanescent |= square.norm() > EVANESCENT;
+        evanescent |= square.l1_norm() > EVANESCENT;
         let regular = (n + 1) as f64 * inverse - psi_ratio(n + 1);
         if evanescent {
             (before, z) = (before / z, Complex64::ONE);
@@ -234,7 +245,7 @@ fn interface(n: usize, x: f64, kappa: Complex64, inside: &Inside, f: &PsiChi) ->
     let xi = |n: usize| Complex64::new(f.psi[n], -f.chi[n]);
     let order = n as f64 / x;
     let delta = |derivative: Complex64| (kappa * derivative + order) * xi(n) - xi(n - 1);
-    let incoming = delta(inside.incoming);
+    let (incoming, regular) = (delta(inside.incoming), delta(inside.regular));
     let numerator = if n <= f.turning {
         (kappa * inside.incoming + order) * f.psi[n] - f.psi[n - 1]
     } else {
@@ -246,7 +257,9 @@ fn interface(n: usize, x: f64, kappa: Complex64, inside: &Inside, f: &PsiChi) ->
         internal: -inside.ratio * delta(inside.outgoing) / incoming,
         transmission: -4.0 * kappa * inside.inverse_square / (incoming * incoming),
         all_internal: -2.0 * Complex64::I * kappa * (inside.incoming - inside.regular)
-            / (incoming * delta(inside.regular)),
+            / (incoming * regular),
+        // Without cancellation, as in `lorenz_mie.rs`: Δ from D is its N - iQ.
+        absorbed: -(kappa * inside.regular).im / regular.norm_sqr(),
     }
 }
 

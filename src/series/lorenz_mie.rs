@@ -80,6 +80,14 @@ impl Sphere {
         angular::amplitudes(&self.a, &self.b, set)
     }
 
+    /// (S1, S2) of several spheres at the same prepared angles: cheaper than one by one.
+    pub fn amplitudes_together<const W: usize>(
+        spheres: [&Self; W],
+        set: &AngleSet,
+    ) -> [Vec<(Complex64, Complex64)>; W] {
+        angular::amplitudes_together(spheres.map(|s| (s.a.as_slice(), s.b.as_slice())), set)
+    }
+
     /// (S1, S2) at scattering angles in radians, blocks of angles shared among all threads.
     pub fn amplitudes_parallel(&self, theta: &[f64]) -> Vec<(Complex64, Complex64)> {
         angular::amplitudes_parallel(&self.a, &self.b, &AngleSet::new(theta))

@@ -8,6 +8,8 @@ mod behind;
 pub mod debye;
 pub mod lorenz_mie;
 pub mod mean;
+mod mean_sum;
+mod stretch;
 mod sun_disc;
 pub mod table;
 
