@@ -82,6 +82,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let budget = energy(plan, wavelength, index, size_parameter)?;
     let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
     let far_field = far_field(plan, index, size_parameter, &scene.phi, in_table);
+    let sections = CrossSections::new(plan, &far_field, index, budget.absorbed);
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
     let tabulator = Tabulator {
@@ -93,27 +94,53 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         filter: (scene.diffraction == crate::scene::Diffraction::Gaussian)
             .then(|| crate::farfield::gaussian_filter::standard_deviation(plan.radius)),
         diffraction: plan.forward_diffraction.then(|| far_field.forward_wave()),
-        scattered: 1.0 - budget.absorbed,
-        silhouette_area: far_field.silhouette().area(),
+        scattering: sections.scattering(),
+        shadow_area: far_field.silhouette().area(),
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
-    let area = far_field.silhouette().area() * plan.radius * plan.radius;
-    let peak = if plan.forward_diffraction { area } else { 0.0 };
     Ok(Slab {
         wavelength,
         index,
         values,
         caustic_order,
-        scattering_cross_section: area * (1.0 - budget.absorbed) + peak,
-        extinction_cross_section: area + peak,
+        scattering_cross_section: sections.scattering() * plan.radius * plan.radius,
+        extinction_cross_section: sections.extinction * plan.radius * plan.radius,
         asymmetry,
         energy: Some(budget),
         sum_before_peak,
         peak_share,
         error_estimate: scene.tolerance,
     })
+}
+
+/// Cross sections in units of the squared radius.
+#[derive(Clone, Copy, Debug)]
+pub struct CrossSections {
+    pub extinction: f64,
+    pub absorption: f64,
+}
+
+impl CrossSections {
+    /// From the share of light on the shadow that rays lose inside. Extinction is what the wave
+    /// straight ahead lacks (optical theorem) where diffraction and reflection are joined; else the
+    /// shadow, and once more with diffraction.
+    fn new(plan: &Plan, far_field: &FarField, index: Complex64, absorbed: f64) -> Self {
+        let area = far_field.silhouette().area();
+        let wave = far_field.forward_wave();
+        let beyond = wave.edge.filter(|_| index.im > 0.0).map_or(0.0, |e| e.absorption(index));
+        let extinction = match far_field.straight_forward() {
+            Some(s) => TAU * (s.s1 + s.s2).re / wave.size_parameter.powi(2),
+            None if plan.forward_diffraction => 2.0 * area,
+            None => area,
+        };
+        Self { extinction, absorption: area * absorbed + beyond }
+    }
+
+    pub fn scattering(&self) -> f64 {
+        self.extinction - self.absorption
+    }
 }
 
 /// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre.
@@ -123,9 +150,30 @@ pub fn scatter(
     size_parameter: f64,
     directions: &[(f64, f64)],
 ) -> Vec<AmplitudeMatrix> {
+    scatter_far_field(plan, index, size_parameter, directions).0
+}
+
+/// The same with cross sections, for the share of light on the shadow that rays lose inside.
+pub fn scatter_with_sections(
+    plan: &Plan,
+    index: Complex64,
+    size_parameter: f64,
+    directions: &[(f64, f64)],
+    absorbed: f64,
+) -> (Vec<AmplitudeMatrix>, CrossSections) {
+    let (amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
+    (amplitudes, CrossSections::new(plan, &far_field, index, absorbed))
+}
+
+fn scatter_far_field<'a>(
+    plan: &'a Plan,
+    index: Complex64,
+    size_parameter: f64,
+    directions: &[(f64, f64)],
+) -> (Vec<AmplitudeMatrix>, FarField<'a>) {
     let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
     let far_field = far_field(plan, index, size_parameter, &azimuths, plan.forward_diffraction);
-    far_field.scatter(directions, plan.forward_diffraction)
+    (far_field.scatter(directions, plan.forward_diffraction), far_field)
 }
 
 /// The header of the table that a scene makes.

@@ -11,7 +11,7 @@ use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::{RaindropModel, Shape};
 use gonio::simulate;
-use gonio::trace::{Tracer, Wavefront, energy_by_fate};
+use gonio::trace::{Fates, Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
@@ -294,32 +294,38 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     // The backward direction rides along: rays are traced once.
     let asked = radians(job).into_iter().map(|theta| (theta, job.azimuth));
     let directions: Vec<(f64, f64)> = asked.chain([(PI, job.azimuth)]).collect();
-    let mut amplitudes = simulate::scatter(&plan, job.index, job.size_parameter, &directions);
+    let fates = fates(&plan, job);
+    let (mut amplitudes, sections) = simulate::scatter_with_sections(
+        &plan,
+        job.index,
+        job.size_parameter,
+        &directions,
+        fates.absorbed,
+    );
     let back = amplitudes.pop().unwrap_or_default();
-    let mut integrals = integrals(&plan, job, diffraction);
-    integrals.q_back = Some(4.0 * back.s11() / job.size_parameter.powi(2));
-    Ok(Answer { amplitudes, diffraction_included: diffraction, ..integrals })
+    let shadow = plan.shape.silhouette().area() / PI;
+    let (q_ext, q_abs) = (sections.extinction / PI, sections.absorption / PI);
+    let q_sca = q_ext - q_abs;
+    // rays by their angles; what is beyond them goes straight on
+    let straight = q_sca - shadow * (1.0 - fates.absorbed);
+    Ok(Answer {
+        amplitudes,
+        q_ext: Some(q_ext),
+        q_sca: Some(q_sca),
+        q_abs: Some(q_abs),
+        q_back: Some(4.0 * back.s11() / job.size_parameter.powi(2)),
+        asymmetry: Some((shadow * fates.forward_momentum + straight) / q_sca),
+        diffraction_included: diffraction,
+    })
 }
 
-/// Efficiencies of the ray picture: extinction is twice the shadow when diffraction is in.
-fn integrals(plan: &Plan, job: &Job, diffraction: bool) -> Answer {
+/// What becomes of the light on the shadow, by rays.
+fn fates(plan: &Plan, job: &Job) -> Fates {
     const GRID: usize = 64;
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { GRID };
     let last = plan.orders.iter().copied().max().unwrap_or(0);
     let tracer = Tracer::new(&plan.shape, job.index, job.size_parameter, last);
-    let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes));
-    let shadow = plan.shape.silhouette().area() / PI;
-    let peak = if diffraction { 1.0 } else { 0.0 };
-    let scattered = 1.0 - fates.absorbed;
-    Answer {
-        amplitudes: Vec::new(),
-        q_ext: Some(shadow * (1.0 + peak)),
-        q_sca: Some(shadow * (scattered + peak)),
-        q_abs: Some(shadow * fates.absorbed),
-        q_back: None,
-        asymmetry: Some((fates.forward_momentum + peak) / (scattered + peak)),
-        diffraction_included: diffraction,
-    }
+    energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes))
 }
 
 fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Value {

@@ -13,7 +13,8 @@ use super::forward_diffraction::{ForwardDiffraction, hankel_over_leading_term, r
 use super::meridian::Meridian;
 use super::segment::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::taper::Taper;
-use crate::optics::AmplitudeMatrix;
+use crate::math::gauss_legendre;
+use crate::optics::{AmplitudeMatrix, Grazing, fresnel};
 use crate::trace::Tracer;
 use num_complex::Complex64;
 use rayon::prelude::*;
@@ -218,6 +219,50 @@ impl EdgeWave {
         let w = [(1.0 + 2.0 * t) * u * u, t * u * u * h, t * t * (3.0 - 2.0 * t), -t * t * u * h];
         let carrier = Complex64::cis(-layout.size_parameter * layout.shift * angle);
         [0, 1].map(|e| (a[e] * w[0] + a[e + 2] * w[1] + b[e] * w[2] + b[e + 2] * w[3]) * carrier)
+    }
+
+    /// What a medium of this index absorbs more than rays tell, in units of the squared radius:
+    /// waves beyond the edge tunnel in and stay for many rounds, those just inside enter otherwise
+    /// than at a flat interface. Rounds on the circle along the light; powers added, as they are on
+    /// average over resonances.
+    pub fn absorption(&self, index: Complex64) -> f64 {
+        const ZONES_INSIDE: f64 = 30.0;
+        const ZONES_BEYOND: f64 = 6.0;
+        const NODES: usize = 64;
+        let x = self.layout.size_parameter;
+        let at = |edge: &Edge| {
+            let size = x * edge.radius;
+            let zone = 0.5 * (2.0 / size).powf(2.0 / 3.0);
+            let share = |cos: f64| {
+                let square = 1.0 - cos * cos;
+                let chord = 2.0 * edge.radius * (1.0 - (cos / index.re).powi(2)).max(0.0).sqrt();
+                let kept = (-2.0 * x * index.im * chord).exp();
+                let absorbed =
+                    |reflected: f64| (1.0 - reflected) * (1.0 - kept) / (1.0 - reflected * kept);
+                let wave = Grazing::reflection(square, size, index).map(|r| absorbed(r.norm_sqr()));
+                let rays = if cos < 1.0 {
+                    let flat = fresnel(square.sqrt(), index);
+                    [flat.r_perpendicular, flat.r_parallel].map(|r| absorbed(r.norm_sqr()))
+                } else {
+                    [0.0; 2]
+                };
+                0.5 * (wave[0] + wave[1] - rays[0] - rays[1])
+            };
+            let inside = (1.0 - ZONES_INSIDE * zone).max(0.0);
+            let beyond = (1.0 + ZONES_BEYOND * zone).min(index.re.max(1.0));
+            let integral = |from: f64, to: f64| -> f64 {
+                let half = 0.5 * (to - from);
+                // closer to the edge, where the square root of the grazing angle's square begins
+                gauss_legendre::nodes(NODES).iter().fold(0.0, |sum, (node, weight)| {
+                    let t = 0.5 * (1.0 + node);
+                    let near = if from < 1.0 { 1.0 - (1.0 - t).powi(2) } else { t * t };
+                    let rate = if from < 1.0 { 2.0 * (1.0 - t) } else { 2.0 * t };
+                    sum + weight * half * rate * share(from + 2.0 * half * near)
+                })
+            };
+            edge.radius * (integral(inside, 1.0) + integral(1.0, beyond))
+        };
+        self.outline.iter().map(|point| point.length * at(&point.edge)).sum()
     }
 
     /// The whole edge wave beyond the axis, sharp shadow included, on the meridian of an azimuth:

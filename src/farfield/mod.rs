@@ -114,6 +114,15 @@ impl<'a> FarField<'a> {
         &self.silhouette
     }
 
+    /// Amplitudes straight forward of rays that a meridian stands for and of the edge wave, where
+    /// diffraction and external reflection are joined.
+    pub fn straight_forward(&self) -> Option<AmplitudeMatrix> {
+        let Source::Meridians(fan, _) = &self.source else { return None };
+        fan.edge()?;
+        let rays = fan.columns(&[0.0], &[0.0]).swap_remove(0)[0];
+        Some(rays + self.forward_wave().peak(&Direction::new(0.0, 0.0)))
+    }
+
     /// All scattering angles at each of some azimuths in [0, π], without forward diffraction.
     pub fn columns(&self, theta: &[f64], azimuths: &[f64], incoherent: bool) -> Vec<Column> {
         match &self.source {

@@ -158,7 +158,6 @@ impl RimLayout {
         tangle: f64,
         x: f64,
     ) -> Option<()> {
-        const MOST_KNOTS: usize = 1500;
         const DARK_ZETA: f64 = 7.5;
         const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
@@ -180,10 +179,7 @@ impl RimLayout {
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
         let spare = 0.1 * tangle + zone + x.powf(-2.0 / 3.0);
         let stretch = [begin, start, bow_at, bow_at + dark];
-        self.knots = knots(stretch, sense, [self.start, self.bow], spare, x);
-        if self.knots.len() > MOST_KNOTS {
-            return None;
-        }
+        self.knots = knots(stretch, sense, [self.start, self.bow], spare, x)?;
         // waves from all azimuths meet at the axis
         for mark in &marks {
             let nearest = (mark.anchor / PI).round() * PI - mark.anchor;
@@ -244,27 +240,30 @@ impl Marks {
 
 /// Knots from `begin` to `end` (radians from the anchor, towards the bow), close enough for waves
 /// whose impact lies between that of the inner ray and the rim, give or take `spare`. The inner ray
-/// goes from `start_at` to the bow at `bow_at`, its impact from `start` to `bow`.
+/// goes from `start_at` to the bow at `bow_at`, its impact from `start` to `bow`. `None` where that
+/// would be too many, as between angles that are not to be trusted.
 fn knots(
     [begin, start_at, bow_at, end]: [f64; 4],
     sense: f64,
     [start, bow]: [f64; 2],
     spare: f64,
     x: f64,
-) -> Vec<[f64; 2]> {
+) -> Option<Vec<[f64; 2]>> {
+    const MOST: usize = 1500;
     let mut at = begin;
     let mut knots = Vec::new();
-    loop {
+    while knots.len() < MOST {
         // towards the bow the inner ray's angle runs like a square
         let share = ((at - start_at) / (bow_at - start_at)).clamp(0.0, 1.0);
         let inner = bow - (bow - start) * (1.0 - share).sqrt();
         let half_band = 0.5 * (1.0 - inner);
         knots.push([sense * at, inner + half_band - bow]);
         if at >= end {
-            return knots;
+            return Some(knots);
         }
         at += TAU / (KNOTS_PER_PERIOD * x * (half_band + spare));
     }
+    None
 }
 
 /// The rim wave of a meridian. `None` where its rays cannot be followed that far.

@@ -32,10 +32,9 @@ pub struct Tabulator<'a> {
     /// Standard deviation (radians) of the Gaussian filter, where it stands for diffraction.
     pub filter: Option<f64>,
     pub diffraction: Option<ForwardWave<'a>>,
-    /// Share of the intercepted power that is scattered.
-    pub scattered: f64,
-    /// Area of the shadow over the squared radius.
-    pub silhouette_area: f64,
+    /// Cross section for scattering and area of the shadow, in units of the squared radius.
+    pub scattering: f64,
+    pub shadow_area: f64,
 }
 
 /// The values of a slab and what was found on the way.
@@ -129,9 +128,7 @@ impl Tabulator<'_> {
 
     /// `k² C_sca` in units of the squared size parameter: what divides `S11`.
     fn scale(&self) -> f64 {
-        let diffracted = if self.diffraction.is_some() { 1.0 } else { 0.0 };
-        let area = self.silhouette_area * (self.scattered + diffracted);
-        1.0 / (self.size_parameter * self.size_parameter * area)
+        1.0 / (self.size_parameter * self.size_parameter * self.scattering)
     }
 
     /// Forward diffraction, where it is in the table.
@@ -247,7 +244,8 @@ impl Tabulator<'_> {
             let total = sum(theta_weights) * sum(phi_weights);
             (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
         };
-        let share = if self.diffraction.is_some() { 1.0 / (1.0 + self.scattered) } else { 0.0 };
+        let diffracts = self.diffraction.is_some();
+        let share = if diffracts { self.shadow_area / self.scattering } else { 0.0 };
         if self.forward_peak != ForwardPeak::CellAverage || !covers_sphere || with <= without {
             return (1.0, sum_before_peak, share);
         }
