@@ -131,7 +131,7 @@ fn sphere(
 }
 
 /// The table of a sphere by Lorenz–Mie (metres, radians).
-pub fn mie_table(
+fn mie_table(
     medium: &Medium,
     radius: f64,
     wavelength: Vec<f64>,
