@@ -90,6 +90,23 @@ fn media_are_named_as_in_a_scene() {
     assert!(table != picture("cauchy", "{ cauchy = [1.325, 0.003] }"));
 }
 
+/// A file that would be replaced is told before anything is computed: the default diagram takes far
+/// longer than this test is given.
+#[test]
+fn an_existing_file_is_refused_before_computing() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("lee.h5");
+    std::fs::write(&data, "mine").unwrap();
+    let mut command = gonio();
+    command.args(["lee", "--shape", "raindrop", "--data"]).arg(&data);
+    command
+        .timeout(std::time::Duration::from_secs(10))
+        .assert()
+        .code(2)
+        .stderr(predicate::str::contains("lee.h5").and(predicate::str::contains("--overwrite")));
+    assert_eq!(std::fs::read_to_string(&data).unwrap(), "mine");
+}
+
 /// The scale of the helper above: what is one step of eight bits apart is nearly the same.
 #[test]
 fn colours_read_back_are_those_written() {

@@ -3,7 +3,7 @@
 
 mod tables;
 
-use gonio::compare::{Case, Entry, measure, page, worst};
+use gonio::compare::{Case, Entry, OrderPair, measure, page, worst};
 use gonio::phase_table::Quantity;
 use std::process::Command;
 use tables::{degrees, sphere};
@@ -16,7 +16,11 @@ fn case() -> Case {
         name: "two spheres </script>".into(),
         reference: entry("0.1 mm", 1e-4),
         tests: vec![entry("the same", 1e-4), entry("0.2 mm", 2e-4)],
-        orders: Vec::new(),
+        orders: vec![OrderPair {
+            order: 2,
+            test: entry("order 2", 1e-4),
+            exact: entry("order 2, exact", 1e-4),
+        }],
     }
 }
 

@@ -90,6 +90,10 @@ pub fn run(args: LeeArgs) -> anyhow::Result<()> {
     if args.output.is_none() && args.data.is_none() && !args.json {
         return Err(usage("nothing to do: give -o LEE.png, --data LEE.h5 or --json"));
     }
+    if let Some(path) = args.data.as_ref().filter(|path| path.exists() && !args.overwrite) {
+        let message = "the file exists; choose another name, or --overwrite";
+        return Err(usage(format!("--data = {}: {message}", path.display())));
+    }
     let request = request(&args)?;
     let start = Instant::now();
     let diagram = columns::columns(&args, &request)?;

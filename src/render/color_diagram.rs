@@ -100,6 +100,7 @@ impl ColorDiagram<'_> {
             .configure_mesh()
             .disable_mesh()
             .x_label_formatter(&|_| String::new())
+            .set_tick_mark_size(LabelAreaPosition::Bottom, 0)
             .x_desc("drop radius (mm)")
             .y_desc("scattering angle θ (°)")
             .y_label_formatter(&|v| trimmed(*v))
