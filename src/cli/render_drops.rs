@@ -4,7 +4,8 @@ use super::UsageError;
 use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
-use gonio::scene::{Choice, Grid, SceneFile, ShapeName};
+use gonio::plan::Plan;
+use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::simulate::{self, SimulateError};
 use ndarray::Array3;
@@ -74,7 +75,12 @@ pub fn tables(
         for (radius, share) in sizes(radius * 1e-3, spread) {
             let table = match kind.shape.as_deref().unwrap_or("sphere") {
                 "sphere" => sphere(kind, folder, radius, polarised)?,
-                "raindrop" => raindrop(kind, folder, radius, sun_elevation_deg, polarised)?,
+                "raindrop" => {
+                    match raindrop_scene(kind, folder, radius, sun_elevation_deg, polarised)? {
+                        Some(scene) => by_rays(&scene)?,
+                        None => sphere(kind, folder, radius, polarised)?,
+                    }
+                }
                 other => {
                     let message =
                         format!("drops.shape = \"{other}\": accepted are sphere and raindrop");
@@ -198,14 +204,15 @@ fn slab(
     }
 }
 
-/// A raindrop by rays, where a rainbow is: 90° to 180° from the sun.
-fn raindrop(
+/// The scene of a raindrop's table, where a rainbow is: 100° to 180° from the sun; nothing for a
+/// drop so small that it is a sphere.
+fn raindrop_scene(
     kind: &DropKeys,
     folder: &Path,
     radius: f64,
     sun_elevation_deg: f64,
     polarised: bool,
-) -> anyhow::Result<PhaseTable> {
+) -> anyhow::Result<Option<Scene>> {
     let mut file = SceneFile::default();
     file.particle.shape = Some(Choice(ShapeName::Raindrop));
     file.particle.radius_mm = Some(radius * 1e3);
@@ -218,9 +225,14 @@ fn raindrop(
     file.table.quantity =
         Some(Choice(if polarised { Quantity::Mueller } else { Quantity::PhaseFunction }));
     let scene = file.validate_in(folder)?;
-    let header = simulate::header(&scene, String::new())?;
+    let round = Plan::new(&scene)?.shape.is_sphere();
+    Ok((!round).then_some(scene))
+}
+
+fn by_rays(scene: &Scene) -> anyhow::Result<PhaseTable> {
+    let header = simulate::header(scene, String::new())?;
     let mut slabs = Vec::new();
-    simulate::simulate::<SimulateError>(&scene, |_, slab| {
+    simulate::simulate::<SimulateError>(scene, |_, slab| {
         slabs.push(slab);
         Ok(())
     })?;
