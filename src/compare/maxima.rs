@@ -182,18 +182,21 @@ fn rainbow(index: f64, order: f64) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A curve with bumps at these angles.
-    fn bumps(at: &[f64]) -> Curve {
+    /// A curve with bumps at these angles, of these heights.
+    fn bumps(at: &[(f64, f64)]) -> Curve {
         let theta: Vec<f64> = (0..=3000).map(|i| 120.0 + 0.01 * f64::from(i)).collect();
-        let value =
-            |t: f64| 0.1 + at.iter().map(|a| (-0.5 * ((t - a) / 0.3).powi(2)).exp()).sum::<f64>();
+        let value = |t: f64| {
+            0.1 + at.iter().map(|(a, h)| h * (-0.5 * ((t - a) / 0.3).powi(2)).exp()).sum::<f64>()
+        };
         let values = theta.iter().map(|&t| value(t)).collect();
         Curve { theta, intensity: vec![("unpolarised", values)] }
     }
 
     #[test]
     fn only_neighbours_are_paired() {
-        let found = maxima(&bumps(&[138.1, 146.0]), &bumps(&[138.0, 140.0, 142.0]), 5000.0, 1.333);
+        // Bumps ever lower, as bow and supernumeraries are.
+        let truth = bumps(&[(138.0, 1.0), (140.0, 0.6), (142.0, 0.5)]);
+        let found = maxima(&bumps(&[(138.1, 1.0), (146.0, 0.5)]), &truth, 5000.0, 1.333);
         assert_eq!(found.pairs.len(), 1);
         assert_eq!(found.pairs[0].name, "primary");
         assert!((found.pairs[0].shift_deg - 0.1).abs() < 1e-3, "{found:?}");

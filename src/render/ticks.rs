@@ -11,9 +11,13 @@ const DIGITS: [&[u32]; 4] = [&[1], &[1, 2, 5], &[1, 2, 3, 5, 7], &[1, 2, 3, 4, 5
 pub fn logarithmic(low: f64, high: f64) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     for digits in DIGITS {
-        let all = decades.clone().flat_map(|decade| {
-            digits.iter().map(move |&digit| f64::from(digit) * 10f64.powi(decade))
-        });
+        // Below 1 divided by a whole number, so that 0.3 is the nearest number to 0.3.
+        let tick = |digit: u32, decade: i32| match decade {
+            0.. => f64::from(digit) * 10f64.powi(decade),
+            _ => f64::from(digit) / 10f64.powi(-decade),
+        };
+        let all =
+            decades.clone().flat_map(|decade| digits.iter().map(move |&digit| tick(digit, decade)));
         let ticks: Vec<f64> = all.filter(|&v| within(v, low, high)).collect();
         if ticks.len() >= FEWEST_LOGARITHMIC {
             return ticks;
