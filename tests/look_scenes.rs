@@ -44,6 +44,21 @@ fn every_shipped_scene_parses() {
     }
 }
 
+/// The paper's Fig. 13: at 0.4 mm its method and Lorenz–Mie give one picture, since the drop is round.
+#[test]
+fn a_raindrop_of_0_4_mm_looks_like_a_sphere() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = |kind: &str| {
+        let png = folder.path().join(format!("{kind}.png"));
+        let scene = format!("{}/data/scenes/bows/size_04_{kind}.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut command = gonio();
+        command.args(["render", &scene, "--width", "64", "--height", "36", "-o"]).arg(&png);
+        command.assert().success();
+        std::fs::read(png).unwrap()
+    };
+    assert!(picture("raindrop") == picture("sphere"));
+}
+
 #[test]
 fn a_camera_that_sees_no_sky_is_refused() {
     let text = "[camera]\nfov_deg = 20\nelevation_deg = -60\nwidth = 32\nheight = 18\n[sky]\n\

@@ -12,6 +12,7 @@ mod material;
 mod memory;
 mod plan;
 mod plot;
+mod progress;
 mod rays;
 mod rays_drawing;
 mod render;

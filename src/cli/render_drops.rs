@@ -4,7 +4,8 @@ use super::UsageError;
 use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
-use gonio::scene::{Choice, Grid, SceneFile, ShapeName};
+use gonio::plan::Plan;
+use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::simulate::{self, SimulateError};
 use ndarray::Array3;
@@ -23,7 +24,8 @@ pub struct DropKeys {
     /// sphere or raindrop
     shape: Option<String>,
     radius_mm: Option<f64>,
-    medium: Option<String>,
+    /// As in a scene of one particle; files are looked for beside the scene.
+    medium: Option<MediumSpec>,
     /// How many drops of this kind there are, relative to the other kinds.
     number: Option<f64>,
     /// Standard deviation of ln(radius): a log-normal distribution of sizes.
@@ -72,8 +74,13 @@ pub fn tables(
         }
         for (radius, share) in sizes(radius * 1e-3, spread) {
             let table = match kind.shape.as_deref().unwrap_or("sphere") {
-                "sphere" => sphere(kind, radius, polarised)?,
-                "raindrop" => raindrop(kind, radius, sun_elevation_deg, polarised)?,
+                "sphere" => sphere(kind, folder, radius, polarised)?,
+                "raindrop" => {
+                    match raindrop_scene(kind, folder, radius, sun_elevation_deg, polarised)? {
+                        Some(scene) => by_rays(&scene)?,
+                        None => sphere(kind, folder, radius, polarised)?,
+                    }
+                }
                 other => {
                     let message =
                         format!("drops.shape = \"{other}\": accepted are sphere and raindrop");
@@ -99,9 +106,13 @@ fn sizes(radius: f64, spread: f64) -> Vec<(f64, f64)> {
 }
 
 /// A sphere by Lorenz–Mie, sampled so that its ripple averages out over the sun's disc.
-fn sphere(kind: &DropKeys, radius: f64, polarised: bool) -> anyhow::Result<PhaseTable> {
-    let medium =
-        MediumSpec::name(kind.medium.as_deref().unwrap_or("water")).resolve(Path::new("."))?;
+fn sphere(
+    kind: &DropKeys,
+    folder: &Path,
+    radius: f64,
+    polarised: bool,
+) -> anyhow::Result<PhaseTable> {
+    let medium = kind.medium.clone().unwrap_or_default().resolve(folder)?;
     let (from, to) = (FROM.to_radians(), PI);
     let sampling = Sampling::new(&SamplingNeed {
         radius,
@@ -126,7 +137,7 @@ fn sphere(kind: &DropKeys, radius: f64, polarised: bool) -> anyhow::Result<Phase
 }
 
 /// The table of a sphere by Lorenz–Mie (metres, radians).
-pub fn mie_table(
+fn mie_table(
     medium: &Medium,
     radius: f64,
     wavelength: Vec<f64>,
@@ -193,17 +204,19 @@ fn slab(
     }
 }
 
-/// A raindrop by rays, where a rainbow is: 90° to 180° from the sun.
-fn raindrop(
+/// The scene of a raindrop's table, where a rainbow is: 100° to 180° from the sun; nothing for a
+/// drop so small that it is a sphere.
+fn raindrop_scene(
     kind: &DropKeys,
+    folder: &Path,
     radius: f64,
     sun_elevation_deg: f64,
     polarised: bool,
-) -> anyhow::Result<PhaseTable> {
+) -> anyhow::Result<Option<Scene>> {
     let mut file = SceneFile::default();
     file.particle.shape = Some(Choice(ShapeName::Raindrop));
     file.particle.radius_mm = Some(radius * 1e3);
-    file.particle.medium = Some(MediumSpec::name(kind.medium.as_deref().unwrap_or("water")));
+    file.particle.medium = Some(kind.medium.clone().unwrap_or_default());
     let range = |from, to, count| Some(Grid::Range { from, to, count });
     file.light.sun_elevation_deg = Some(sun_elevation_deg);
     file.light.wavelengths_nm = range(390.0, 710.0, kind.wavelengths.unwrap_or(33));
@@ -211,10 +224,15 @@ fn raindrop(
     file.table.azimuth_deg = range(0.0, 360.0, 181);
     file.table.quantity =
         Some(Choice(if polarised { Quantity::Mueller } else { Quantity::PhaseFunction }));
-    let scene = file.validate()?;
-    let header = simulate::header(&scene, String::new())?;
+    let scene = file.validate_in(folder)?;
+    let round = Plan::new(&scene)?.shape.is_sphere();
+    Ok((!round).then_some(scene))
+}
+
+fn by_rays(scene: &Scene) -> anyhow::Result<PhaseTable> {
+    let header = simulate::header(scene, String::new())?;
     let mut slabs = Vec::new();
-    simulate::simulate::<SimulateError>(&scene, |_, slab| {
+    simulate::simulate::<SimulateError>(scene, |_, slab| {
         slabs.push(slab);
         Ok(())
     })?;

@@ -2,6 +2,7 @@
 
 use super::UsageError;
 use super::memory::MemoryFlag;
+use super::progress;
 use super::scene_flags::SceneFlags;
 use super::thinned::Thinned;
 use clap::Args;
@@ -10,7 +11,6 @@ use gonio::phase_table::Slab;
 use gonio::render::preview;
 use gonio::scene::{Scene, human_bytes};
 use gonio::simulate;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -93,7 +93,7 @@ fn tabulate(scene: &Scene, args: &TableArgs) -> anyhow::Result<(Summary, Thinned
     let mut writer = TableWriter::create(&args.output, &header, options)?;
     let mut thinned = Thinned::new(&header);
     let mut summary = Summary::default();
-    let progress = progress_bar(scene.wavelengths.len());
+    let progress = progress::bar(scene.wavelengths.len(), "wavelengths");
     simulate::simulate(scene, |index, slab| -> anyhow::Result<()> {
         writer.write_slab(index, &slab)?;
         summary.add(&slab);
@@ -115,14 +115,6 @@ impl Summary {
             self.energy_residual = Some(residual);
         }
     }
-}
-
-/// On a terminal only; it draws on stderr.
-fn progress_bar(wavelengths: usize) -> ProgressBar {
-    let template = "{bar:32} {pos}/{len} wavelengths, {elapsed}, {eta} to go";
-    let style = ProgressStyle::with_template(template);
-    ProgressBar::new(wavelengths as u64)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 fn report(

@@ -2,11 +2,14 @@
 //! ray optics as lines to compare with.
 
 use super::heat_map::draw_pixels;
+use super::ticks;
 use super::{FONT, Picture, RenderError, ensure_font};
 use crate::color::to_srgb;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::ops::Range;
 
 /// What is drawn and written around it.
 pub struct ColorDiagram<'a> {
@@ -28,6 +31,8 @@ pub struct ColorDiagram<'a> {
 
 const WIDTH: u32 = 1100;
 const HEIGHT: u32 = 760;
+/// Height of the title and its second line.
+const HEAD: i32 = 62;
 /// Room on the right for the marks' names.
 const MARGIN: u32 = 150;
 
@@ -43,7 +48,7 @@ impl ColorDiagram<'_> {
             let root =
                 BitMapBackend::with_buffer(&mut picture.rgb, (WIDTH, HEIGHT)).into_drawing_area();
             root.fill(&WHITE)?;
-            let (head, body) = root.split_vertically(62);
+            let (head, body) = root.split_vertically(HEAD);
             head.draw(&Text::new(self.title, (20, 12), (FONT, 22).into_font().color(&BLACK)))?;
             let grey = (FONT, 14).into_font().color(&RGBColor(90, 90, 90));
             head.draw(&Text::new(self.subtitle, (20, 40), grey))?;
@@ -89,25 +94,53 @@ impl ColorDiagram<'_> {
             let mixed = std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
             to_srgb(mixed, self.exposure[column])
         })?;
+        let end = self.radii[columns - 1].max(1.01 * self.radii[0]);
+        let plot = chart.plotting_area().get_pixel_range();
         chart
             .configure_mesh()
             .disable_mesh()
-            .x_labels(24)
+            .x_label_formatter(&|_| String::new())
+            .set_tick_mark_size(LabelAreaPosition::Bottom, 0)
             .x_desc("drop radius (mm)")
             .y_desc("scattering angle θ (°)")
-            .x_label_formatter(&|v| trimmed(*v))
             .y_label_formatter(&|v| trimmed(*v))
             .label_style((FONT, 15))
             .axis_desc_style((FONT, 17))
             .draw()?;
-        let (columns, rows) = chart.plotting_area().get_pixel_range();
+        self.label_radii(area, &plot, self.radii[0], end)?;
+        let (columns, rows) = plot;
         let style = (FONT, 13).into_font().color(&BLACK);
         for (angle, name) in self.marks.iter().filter(|m| angles.contains(&m.0)) {
             let share = (angles.end - angle) / (angles.end - angles.start);
             // The area starts below the title.
-            let y = rows.start - 62 + (share * f64::from(rows.end - rows.start)) as i32;
+            let y = rows.start - HEAD + (share * f64::from(rows.end - rows.start)) as i32;
             area.draw(&PathElement::new(vec![(columns.end, y), (columns.end + 8, y)], BLACK))?;
             area.draw(&Text::new(name.clone(), (columns.end + 12, y - 7), style.clone()))?;
+        }
+        Ok(())
+    }
+
+    /// Ticks and numbers below the plot: the axis of `plotters` labels one decade of a log scale.
+    fn label_radii(
+        &self,
+        area: &DrawingArea<BitMapBackend<'_>, Shift>,
+        (columns, rows): &(Range<i32>, Range<i32>),
+        low: f64,
+        high: f64,
+    ) -> Result<(), RenderError> {
+        let scale = |r: f64| if self.logarithmic { r.ln() } else { r };
+        let ticks = match self.logarithmic {
+            true => ticks::logarithmic(low, high),
+            false => ticks::linear(low, high),
+        };
+        let bottom = rows.end - HEAD;
+        let centred = Pos::new(HPos::Center, VPos::Top);
+        let style = (FONT, 15).into_font().color(&BLACK).pos(centred);
+        for tick in ticks {
+            let share = (scale(tick) - scale(low)) / (scale(high) - scale(low));
+            let x = columns.start + (share * f64::from(columns.end - columns.start)).round() as i32;
+            area.draw(&PathElement::new(vec![(x, bottom), (x, bottom + 6)], BLACK))?;
+            area.draw(&Text::new(trimmed(tick), (x, bottom + 8), style.clone()))?;
         }
         Ok(())
     }
@@ -115,6 +148,6 @@ impl ColorDiagram<'_> {
 
 /// A number without trailing zeros.
 fn trimmed(value: f64) -> String {
-    let text = format!("{value:.4}");
+    let text = format!("{value:.5}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -13,6 +13,7 @@ mod picture;
 pub mod preview;
 pub mod sky;
 mod sun_smoothing;
+mod ticks;
 mod tristimulus;
 
 pub use color_diagram::ColorDiagram;
