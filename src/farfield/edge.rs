@@ -26,16 +26,17 @@ pub(super) struct Layout {
     pub size_parameter: f64,
     /// Weight of the integral, by the cosine of the grazing angle.
     pub taper: Taper,
-    /// Where tunnelling has ended, on the same scale.
-    pub tunnel_end: f64,
-    /// Largest angle between a direction and a ray in the taper: sets the density of samples.
-    pub widest: f64,
+    /// Nodes of the integral by impact over the radius of the circle along the light, the cosine of
+    /// the grazing angle there, on both sides of the edge, with their weights.
+    pub nodes: Vec<(f64, f64)>,
     /// Impact of the carrier, from the edge.
     pub shift: f64,
-    /// Knots: first angle, step, number.
-    from: f64,
-    step: f64,
-    pub count: usize,
+    /// Angles at which profiles are known: evenly about the axis, then beyond it on the side of the
+    /// edge, then across the axis.
+    pub angles: Vec<f64>,
+    /// How many of them lie about the axis and on the side of the edge.
+    about_axis: usize,
+    near_side: usize,
 }
 
 impl Layout {
@@ -54,31 +55,59 @@ impl Layout {
         let taper = Taper { start, full };
         let tunnel = TUNNEL * x.powf(-2.0 / 3.0);
         let inner = 2.0 * start.acos();
-        let lit = inner + 6.0 / (x * (full - start));
         let axial = near_axis(x);
-        let to = lit.min(FARTHEST).max(axial);
-        let from = -(PENUMBRA * x.cbrt().recip()).min(FARTHEST).max(axial);
+        let lit = (inner + 6.0 / (x * (full - start))).min(FARTHEST);
+        let dark = (PENUMBRA * x.cbrt().recip()).min(FARTHEST);
         let half_band = 0.5 * (1.0 - start + tunnel);
-        let count = ((to - from) * x * half_band * KNOTS_PER_PERIOD / TAU).ceil() as usize + 8;
+        let about_axis = (2.0 * axial * x * half_band * KNOTS_PER_PERIOD / TAU).ceil() as usize + 8;
+        let step = 2.0 * axial / (about_axis - 1) as f64;
+        let mut angles: Vec<f64> = (0..about_axis).map(|k| k as f64 * step - axial).collect();
+        let near = beyond_axis(x, lit);
+        let near_side = near.len();
+        angles.extend(near);
+        angles.extend(beyond_axis(x, dark).into_iter().map(|angle| -angle));
         Self {
             size_parameter: x,
             taper,
-            tunnel_end: 1.0 + tunnel,
-            widest: inner + to.max(-from),
+            nodes: nodes(taper, tunnel, x * (inner + lit.max(dark).max(axial))),
             shift: tunnel - half_band,
-            from,
-            step: (to - from) / (count - 1) as f64,
-            count,
+            angles,
+            about_axis,
+            near_side,
         }
     }
+}
 
-    pub(super) fn angle(&self, k: usize) -> f64 {
-        self.from + k as f64 * self.step
-    }
+/// Gauss–Legendre nodes from the start of the taper to the edge and from there to where tunnelling
+/// ends, for a phase that changes by at most `rate` per length.
+fn nodes(taper: Taper, tunnel: f64, rate: f64) -> Vec<(f64, f64)> {
+    /// How far inside the start of the taper the integral begins, in lengths from there to the
+    /// edge: on deformed particles the ray of that grazing angle may lie there.
+    const INWARD: f64 = 0.3;
+    const PER_PERIOD: f64 = 3.5;
+    let start = (taper.start - INWARD * (1.0 - taper.start)).max(0.01);
+    let side = |(from, to): (f64, f64)| {
+        let half = 0.5 * (to - from);
+        let count = (PER_PERIOD * 2.0 * half * rate / TAU).ceil() as usize + 24;
+        let nodes = gauss_legendre::nodes(count).into_iter();
+        nodes.map(move |(node, weight)| (from + half * (1.0 + node), half * weight))
+    };
+    [(start, 1.0), (1.0, 1.0 + tunnel)].into_iter().flat_map(side).collect()
+}
 
-    fn to(&self) -> f64 {
-        self.angle(self.count - 1)
+/// Knots from exactly the end of the stretch about the axis to `reach`: close enough for the wave
+/// zone, which is `(2/x)^{1/3}` wide, and closer next to the axis, where the waves of a sharp edge
+/// grow. None where that stretch reaches farther.
+fn beyond_axis(x: f64, reach: f64) -> Vec<f64> {
+    const STEP_BY_ANGLE: f64 = 0.08;
+    const STEP_BY_ZONE: f64 = 0.12;
+    const LONGEST: f64 = 0.03;
+    let step = (STEP_BY_ZONE * (2.0 / x).cbrt()).min(LONGEST);
+    let mut angles = vec![near_axis(x)];
+    while let Some(&last) = angles.last().filter(|&&last| last < reach) {
+        angles.push((last + step.min(STEP_BY_ANGLE * last)).min(reach));
     }
+    if angles.len() > 1 { angles } else { Vec::new() }
 }
 
 /// Angle up to which the wave is an integral along the outline: 20 lobes of the forward peak.
@@ -146,7 +175,7 @@ impl EdgeWave {
             edge: Edge { support, ..profile.edge },
             slope,
             length: radius * TAU / OUTLINE_POINTS as f64,
-            knots: profile.knots.iter().map(ends).collect(),
+            knots: profile.knots[..self.layout.about_axis].iter().map(ends).collect(),
         }
     }
 
@@ -158,7 +187,7 @@ impl EdgeWave {
         }
         let place = azimuth.rem_euclid(TAU) / PI * last as f64;
         let first = place.floor() as i64 - (STENCIL / 2 - 1);
-        let knots = vec![[[Complex64::default(); 4]; 2]; self.layout.count];
+        let knots = vec![[[Complex64::default(); 4]; 2]; self.layout.angles.len()];
         let mut sum = EdgeProfile { edge: Edge::default(), outline_radius: 0.0, knots };
         for k in 0..STENCIL {
             let at = place - first as f64;
@@ -211,9 +240,10 @@ impl EdgeWave {
     /// E of a point of the outline, perpendicular and parallel, at an angle along its normal.
     fn edge_at(&self, point: &OutlinePoint, angle: f64) -> [Complex64; 2] {
         let layout = &self.layout;
-        let place = ((angle - layout.from) / layout.step).clamp(0.0, (layout.count - 1) as f64);
-        let k = (place as usize).min(layout.count - 2);
-        let (t, h) = (place - k as f64, layout.step);
+        let (from, h) = (layout.angles[0], layout.angles[1] - layout.angles[0]);
+        let place = ((angle - from) / h).clamp(0.0, (layout.about_axis - 1) as f64);
+        let k = (place as usize).min(layout.about_axis - 2);
+        let t = place - k as f64;
         let (a, b) = (&point.knots[k], &point.knots[k + 1]);
         let u = 1.0 - t;
         let w = [(1.0 + 2.0 * t) * u * u, t * u * u * h, t * t * (3.0 - 2.0 * t), -t * t * u * h];
@@ -269,55 +299,41 @@ impl EdgeWave {
     /// a segment on the side of its edge, and one across the axis. Knots are the same for all.
     pub fn segments(&self, azimuth: f64) -> Vec<Segment> {
         let profile = self.profile(azimuth);
-        let reaches = [(1.0, self.layout.to()), (-1.0, -self.layout.from)];
-        let segment = |(side, reach): (f64, f64)| {
-            let angles = self.segment_angles(reach);
-            let knots = angles.into_iter().map(|t| self.knot(&profile, side * t)).collect();
-            Segment { kind: Kind::Wave, knots }
+        let (begin, middle) =
+            (self.layout.about_axis, self.layout.about_axis + self.layout.near_side);
+        let sides = [begin..middle, middle..self.layout.angles.len()];
+        let segment = |knots: std::ops::Range<usize>| Segment {
+            kind: Kind::Wave,
+            knots: knots.map(|k| self.knot(&profile, k)).collect(),
         };
-        reaches.into_iter().map(segment).filter(|segment| segment.knots.len() > 1).collect()
+        sides.into_iter().filter(|side| !side.is_empty()).map(segment).collect()
     }
 
-    /// Knots from exactly the end of the stretch about the axis to `reach`, closer next to the axis,
-    /// where the waves of a sharp edge grow.
-    fn segment_angles(&self, reach: f64) -> Vec<f64> {
-        const STEP_BY_ANGLE: f64 = 0.08;
-        let mut angles = vec![near_axis(self.layout.size_parameter)];
-        while let Some(&last) = angles.last().filter(|&&last| last < reach) {
-            angles.push((last + self.layout.step.min(STEP_BY_ANGLE * last)).min(reach));
-        }
-        angles
-    }
-
-    fn knot(&self, profile: &EdgeProfile, angle: f64) -> Knot {
-        let layout = &self.layout;
-        let x = layout.size_parameter;
-        let place = (angle - layout.from) / layout.step;
-        let k = (place.max(0.0) as usize).min(layout.count - 2);
-        let (t, h) = (place - k as f64, layout.step);
-        let ([a, da], [b, db]) = (&profile.knots[k], &profile.knots[k + 1]);
-        // value and slope of the cubic between the layout's knots
-        let u = 1.0 - t;
-        let w = [(1.0 + 2.0 * t) * u * u, t * u * u * h, t * t * (3.0 - 2.0 * t), -t * t * u * h];
-        let d = [-6.0 * t * u / h, u * (1.0 - 3.0 * t), 6.0 * t * u / h, t * (3.0 * t - 2.0)];
-        let mix = |w: &[f64; 4], e: usize| a[e] * w[0] + da[e] * w[1] + b[e] * w[2] + db[e] * w[3];
-        // the sharp shadow: ∫ exp(-ixdϑ) dd up to the edge
+    /// The wave of a point of the outline at knot `k`, against that of the ray reflected there (on
+    /// the dark side, of a ray along the edge).
+    fn knot(&self, profile: &EdgeProfile, k: usize) -> Knot {
+        let x = self.layout.size_parameter;
+        let angle = self.layout.angles[k];
+        let (edge, shift) = (&profile.edge, self.layout.shift);
         let i = Complex64::i();
-        let carrier = Complex64::cis(x * layout.shift * angle);
-        let sharp =
-            i / (x * angle) * carrier * hankel_over_leading_term(x * angle * profile.edge.support);
-        let sharp_slope = sharp * (i * x * layout.shift - 1.0 / angle);
+        // the sharp shadow: ∫ exp(-ixdϑ) dd up to the edge
+        let sharp = i / (x * angle) * hankel_over_leading_term(x * angle * edge.support);
+        let carrier = Complex64::cis(-x * shift * angle);
+        let [value, slope] = &profile.knots[k];
         let (sin, cos) = angle.sin_cos();
         let scale = x / TAU * (TAU * profile.outline_radius / (x * sin.abs())).sqrt();
         let factor = Complex64::cis(FRAC_PI_4 * angle.signum()) * scale;
+        let ([path, path_slope], [reference, reference_slope]) =
+            (edge.path(angle), edge.reflected_path(angle));
+        let turned = Complex64::cis(x * (path - reference));
         let mut knot = [0.0; CHANNELS];
-        let [path, path_slope] = profile.edge.path(angle);
-        knot[0] = angle;
-        knot[1] = path - layout.shift * angle;
-        knot[2] = path_slope - layout.shift;
+        (knot[0], knot[1], knot[2]) = (angle, reference, reference_slope);
         for e in 0..2 {
-            let value = factor * (mix(&w, e) + sharp);
-            let rate = factor * (mix(&d, e) + sharp_slope) - value * (0.5 * cos / sin);
+            let rate = slope[e] - i * x * shift * value[e];
+            let value = value[e] * carrier + sharp;
+            let rate = rate * carrier - sharp / angle
+                + value * (i * x * (path_slope - reference_slope) - 0.5 * cos / sin);
+            let (value, rate) = (value * factor * turned, rate * factor * turned);
             let (c, s) = (PLAIN_AMPLITUDE + 2 * e, SLOPE + 2 * e);
             (knot[c], knot[c + 1]) = (value.re, value.im);
             (knot[s], knot[s + 1]) = (rate.re, rate.im);

@@ -14,13 +14,11 @@ use super::meridian::Meridian;
 use super::rim_integrand::Integrand;
 use super::taper::Taper;
 use crate::math::chebyshev::{self, Chebyshev};
-use crate::math::gauss_legendre;
 use crate::math::interpolate::lagrange;
 use crate::optics::Grazing;
 use crate::shape::Silhouette;
 use crate::trace::Exit;
 use num_complex::Complex64;
-use std::f64::consts::TAU;
 
 /// Values of `E` (or its slopes by angle): perpendicular and parallel to the plane of the normal,
 /// for the wave of one point of the outline (√ of the spreading), then for a line of points.
@@ -46,6 +44,17 @@ impl Edge {
         let path = -self.radius * angle - aside * sin + self.depth * (1.0 - cos);
         [path, -self.radius - aside * cos + self.depth * sin]
     }
+
+    /// The same for the ray that the circle reflects by a positive angle.
+    pub(super) fn reflected_path(&self, angle: f64) -> [f64; 2] {
+        let [path, slope] = self.path(angle);
+        if angle < 0.0 {
+            return [path, slope];
+        }
+        let half = 0.5 * angle;
+        let (chord, rate) = (2.0 * half.sin(), half.cos());
+        [path + self.radius * (angle - chord), slope + self.radius * (1.0 - rate)]
+    }
 }
 
 /// `E` of one normal, at the angles of the layout, against the carrier `exp(-ix shift ϑ)`.
@@ -65,9 +74,6 @@ const RAYS: usize = 16;
 const DEGREE: usize = 7;
 /// Share of the grazing sines that is left out next to the edge.
 const SPARE: f64 = 0.14;
-/// How far inside the start of the taper the integral begins, in lengths from there to the edge: on
-/// deformed particles the ray of that grazing angle may lie there.
-const INWARD: f64 = 0.3;
 /// Wave zones from the edge over which ray data come to hold.
 const RAYS_HOLD: Taper = Taper { start: 0.0, full: 4.0 };
 
@@ -85,13 +91,12 @@ impl EdgeProfile {
         let channels = channels(meridian, silhouette, layout, &edge)?;
         let integrand =
             integrand(&channels, [edge.radius, outline_radius], meridian.tracer.index(), layout)?;
-        let knot = |k: usize| {
-            let angle = layout.angle(k);
+        let knot = |&angle: &f64| {
             let sums = integrand.sum(angle, -layout.shift * angle, x);
             let slope = |e: usize| -Complex64::i() * x * (sums[1][e] - layout.shift * sums[0][e]);
             [sums[0], std::array::from_fn(slope)]
         };
-        let knots: Vec<[Values; 2]> = (0..layout.count).map(knot).collect();
+        let knots: Vec<[Values; 2]> = layout.angles.iter().map(knot).collect();
         let finite = knots.iter().flatten().flatten().all(|v| v.is_finite());
         finite.then_some(Self { edge, outline_radius, knots })
     }
@@ -209,36 +214,27 @@ fn integrand(
 ) -> Option<Integrand> {
     let x = layout.size_parameter;
     let mut integrand = Integrand::with_capacity(256);
-    let start = layout.taper.start - INWARD * (1.0 - layout.taper.start);
-    // by the impact over the circle's radius, the cosine of the grazing angle there
-    for (from, to) in [(start.max(0.01), 1.0), (1.0, layout.tunnel_end)] {
-        let half = 0.5 * (to - from);
-        let turns = 2.0 * half * x * layout.widest / TAU;
-        let count = (3.5 * turns).ceil() as usize + 24;
-        for (node, share) in gauss_legendre::nodes(count) {
-            let cos = from + half * (1.0 + node);
-            let v = 1.0 - cos * cos;
-            let ([ratio, path, spreading], _) = channels.at(v.max(0.0).sqrt());
-            let square = if v > 0.0 { (v * ratio * ratio).min(1.0) } else { v };
-            let weight = layout.taper.weight((1.0 - square).sqrt()) * share * half * radius;
-            // within a wave zone of the edge ray data do not hold, nor would they be the same for
-            // the reversed path; there the circle and the outline are all that counts
-            let real = RAYS_HOLD.weight(v * (0.5 * x * radius).powf(2.0 / 3.0));
-            let spread = cos * (1.0 + real * (spreading / outline_radius - 1.0)).max(0.0);
-            let elements = |[a, b]: [Complex64; 2], spread: f64| {
-                [a * spread.sqrt(), b * spread.sqrt(), a * spread, b * spread]
-            };
-            let wave = Complex64::cis(x * v * v * path * real) * -weight;
-            let kept =
-                elements(Grazing::reflection(v, x * radius, index).map(|r| r * wave), spread);
-            if !kept.iter().all(|v| v.is_finite()) {
-                return None;
-            }
-            let impact = radius * (cos - 1.0);
-            integrand.push(impact, 0.0, kept);
-            if cos > 1.0 {
-                integrand.push(impact, 0.0, elements([weight.into(); 2], cos));
-            }
+    for &(cos, width) in &layout.nodes {
+        let v = 1.0 - cos * cos;
+        let ([ratio, path, spreading], _) = channels.at(v.max(0.0).sqrt());
+        let square = if v > 0.0 { (v * ratio * ratio).min(1.0) } else { v };
+        let weight = layout.taper.weight((1.0 - square).sqrt()) * width * radius;
+        // within a wave zone of the edge ray data do not hold, nor would they be the same for
+        // the reversed path; there the circle and the outline are all that counts
+        let real = RAYS_HOLD.weight(v * (0.5 * x * radius).powf(2.0 / 3.0));
+        let spread = cos * (1.0 + real * (spreading / outline_radius - 1.0)).max(0.0);
+        let elements = |[a, b]: [Complex64; 2], spread: f64| {
+            [a * spread.sqrt(), b * spread.sqrt(), a * spread, b * spread]
+        };
+        let wave = Complex64::cis(x * v * v * path * real) * -weight;
+        let kept = elements(Grazing::reflection(v, x * radius, index).map(|r| r * wave), spread);
+        if !kept.iter().all(|v| v.is_finite()) {
+            return None;
+        }
+        let impact = radius * (cos - 1.0);
+        integrand.push(impact, 0.0, kept);
+        if cos > 1.0 {
+            integrand.push(impact, 0.0, elements([weight.into(); 2], cos));
         }
     }
     integrand.fill_lanes();

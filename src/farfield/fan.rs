@@ -176,7 +176,7 @@ impl OrderFan {
         let places = azimuths.places(settings, steps);
         // knots per radian at 1 %: the strongest orders have more
         let density = if order == 0 && edge.is_some() {
-            120.0
+            48.0
         } else if order <= 2 {
             36.0
         } else {

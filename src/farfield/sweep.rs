@@ -197,14 +197,22 @@ impl Piece<'_> {
     #[inline(always)]
     fn places(&self, start: usize, from: f64, inverse: f64) -> Lanes {
         let theta = &self.theta[start..start + LANES];
-        std::array::from_fn(|k| (self.sign * theta[k] + self.turn - from) * inverse)
+        let mut places = [0.0; LANES];
+        for k in 0..LANES {
+            places[k] = (self.sign * theta[k] + self.turn - from) * inverse;
+        }
+        places
     }
 
     /// `scale` for samples of the piece, 0 for those of the block that lie beyond its end.
     #[inline(always)]
     fn inside(&self, start: usize, scale: f64) -> Lanes {
         let live = self.end - start;
-        std::array::from_fn(|k| if k < live { scale } else { 0.0 })
+        let mut scales = [0.0; LANES];
+        for (k, place) in scales.iter_mut().enumerate() {
+            *place = if k < live { scale } else { 0.0 };
+        }
+        scales
     }
 }
 
@@ -218,6 +226,17 @@ fn hermite(v0: f64, s0: f64, v1: f64, s1: f64) -> [f64; 4] {
 #[inline(always)]
 fn cubic<const FMA: bool>(c: &[f64; 4], t: f64) -> f64 {
     multiply_add::<FMA>(t, multiply_add::<FMA>(t, multiply_add::<FMA>(t, c[3], c[2]), c[1]), c[0])
+}
+
+/// A cubic at each lane. (A loop, since closures are not always compiled into the instruction set of
+/// the function they stand in.)
+#[inline(always)]
+fn cubics_at<const FMA: bool>(c: &[f64; 4], t: &Lanes) -> Lanes {
+    let mut values = [0.0; LANES];
+    for k in 0..LANES {
+        values[k] = cubic::<FMA>(c, t[k]);
+    }
+    values
 }
 
 /// Sine and cosine of `turns + per_turn · path`, times `scale`.
@@ -270,17 +289,18 @@ fn single<const FMA: bool>(
 ) {
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
-    let cubics: [[f64; 4]; 8] = std::array::from_fn(|c| {
+    let mut cubics = [[0.0; 4]; 8];
+    for (c, cubic) in cubics.iter_mut().enumerate() {
         let (value, slope) = (PLAIN_AMPLITUDE + c, SLOPE + c);
-        hermite(a[value], a[slope] * h, b[value], b[slope] * h)
-    });
+        *cubic = hermite(a[value], a[slope] * h, b[value], b[slope] * h);
+    }
     for start in (piece.begin..piece.end).step_by(LANES) {
         let t = piece.places(start, a[0], 1.0 / h);
         let scale = piece.inside(start, x);
         let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &scale);
         for e in 0..4 {
-            let re: Lanes = std::array::from_fn(|k| cubic::<FMA>(&cubics[2 * e], t[k]));
-            let im: Lanes = std::array::from_fn(|k| cubic::<FMA>(&cubics[2 * e + 1], t[k]));
+            let (re, im) =
+                (cubics_at::<FMA>(&cubics[2 * e], &t), cubics_at::<FMA>(&cubics[2 * e + 1], &t));
             add_turned::<FMA>(rows, e, start, [&re, &im], &sin, &cos);
         }
     }
@@ -302,10 +322,11 @@ fn pair<const FMA: bool>(
     let h = b[0] - a[0];
     let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
     let zeta = hermite(a[3], a[4] * h, b[3], b[4] * h);
-    let cubics: [[f64; 4]; 16] = std::array::from_fn(|c| {
+    let mut cubics = [[0.0; 4]; 16];
+    for (c, cubic) in cubics.iter_mut().enumerate() {
         let i = PAIR_AMPLITUDE + c;
-        hermite(a[i], slopes[0][i] * h, b[i], slopes[1][i] * h)
-    });
+        *cubic = hermite(a[i], slopes[0][i] * h, b[i], slopes[1][i] * h);
+    }
     for start in (piece.begin..piece.end).step_by(LANES) {
         let t = piece.places(start, a[0], 1.0 / h);
         let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &piece.inside(start, 1.0));
@@ -316,10 +337,15 @@ fn pair<const FMA: bool>(
         }
         for e in 0..4 {
             // w0 g₀ + i w1 g₁
-            let g = |c: usize, k: usize| cubic::<FMA>(&cubics[c], t[k]);
             let (r, i) = (2 * e, 2 * e + 1);
-            let re: Lanes = std::array::from_fn(|k| w0[k] * g(r, k) - w1[k] * g(8 + i, k));
-            let im: Lanes = std::array::from_fn(|k| w0[k] * g(i, k) + w1[k] * g(8 + r, k));
+            let (a, b) = (cubics_at::<FMA>(&cubics[r], &t), cubics_at::<FMA>(&cubics[i], &t));
+            let c = cubics_at::<FMA>(&cubics[8 + i], &t);
+            let d = cubics_at::<FMA>(&cubics[8 + r], &t);
+            let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
+            for k in 0..LANES {
+                re[k] = w0[k] * a[k] - w1[k] * c[k];
+                im[k] = w0[k] * b[k] + w1[k] * d[k];
+            }
             add_turned::<FMA>(rows, e, start, [&re, &im], &sin, &cos);
         }
     }
