@@ -6,10 +6,9 @@ mod bows;
 
 use bows::{Peak, WATER, peaks};
 use gonio::color::{Illuminant, Observer};
-use gonio::lee::{Beats, LeeError, Polarisation, Request, diagram};
+use gonio::lee::{Beats, Drop, LeeError, Polarisation, Request, diagram};
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Orders, SceneFile, ShapeName};
-use num_complex::Complex64;
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 
@@ -62,15 +61,19 @@ fn profile(radius_mm: f64, sun_elevation_deg: f64, theta: &[f64]) -> Vec<f64> {
     };
     // Light that goes down comes from above.
     let directions = |theta: &[f64]| theta.iter().map(|&t| (t, PI)).collect::<Vec<_>>();
-    let scatter = |radius: f64, wavelength: f64, index: Complex64, at: &Vec<(f64, f64)>| {
+    let one = |drop: &Drop, at: &Vec<(f64, f64)>| {
         let mut sum = vec![[0.0; 2]; at.len()];
         for plan in &plans {
-            let found = gonio::simulate::scatter(plan, index, TAU * radius / wavelength, at);
+            let size_parameter = TAU * drop.radius / drop.wavelength;
+            let found = gonio::simulate::scatter(plan, drop.index, size_parameter, at);
             for (sum, m) in sum.iter_mut().zip(found) {
                 sum[0] += m.s11();
             }
         }
-        Ok::<_, LeeError>(sum)
+        sum
+    };
+    let scatter = |drops: &[Drop], at: &Vec<(f64, f64)>| {
+        Ok::<_, LeeError>(drops.iter().map(|drop| one(drop, at)).collect())
     };
     let seen = diagram(&request, Beats::WithinOrders, &directions, scatter).unwrap();
     let area = PI * radius * radius;

@@ -210,9 +210,24 @@ fn shape_ratio(s: Complex64) -> Complex64 {
     if s.norm() < 1e-3 {
         return 1.0 + s * (4.0 / 15.0) + s * s * 0.1428;
     }
+    if s.im == 0.0 {
+        return real_shape_ratio(s.re).into();
+    }
     let gamma = s.sqrt().asin();
     let cubic = 3.0 * (gamma.sin() - gamma * gamma.cos()) / (gamma * gamma * gamma);
     cubic.powf(2.0 / 3.0) * gamma * gamma / s
+}
+
+/// The same for real `s`; below 0 the angle is imaginary and the ratio real all the same.
+fn real_shape_ratio(s: f64) -> f64 {
+    let size = s.abs().sqrt();
+    // |sin γ - γ cos γ|
+    let area = if s > 0.0 {
+        size - size.min(1.0).asin() * (1.0 - size * size).max(0.0).sqrt()
+    } else {
+        size.asinh() * (1.0 + size * size).sqrt() - size
+    };
+    (3.0 * area).cbrt().powi(2) / (size * size)
 }
 
 /// `Ai(η e^{±iπ/3})` and its derivative.
@@ -284,7 +299,9 @@ mod tests {
         let a = shape_ratio(Complex64::new(0.99999e-3, 0.0));
         let b = shape_ratio(Complex64::new(1.00001e-3, 0.0));
         assert!((a - b).norm() < 1e-7, "{a} {b}");
-        let c = shape_ratio(Complex64::new(-0.3, 0.0));
-        assert!(c.im.abs() < 1e-12 && c.re > 0.0);
+        for s in [-0.3, -0.01, 0.01, 0.5, 0.99] {
+            let beside = shape_ratio(Complex64::new(s, 1e-13));
+            assert!((beside - real_shape_ratio(s)).norm() < 1e-10, "{s}: {beside}");
+        }
     }
 }
