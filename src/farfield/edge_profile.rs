@@ -193,7 +193,7 @@ fn channels(
         // the angle whose ray has this sine: a few steps from that on a sphere
         let mut sine = wanted;
         let mut ray = seen(2.0 * sine.min(1.0).asin())?;
-        for _ in 0..4 {
+        for _ in 0..2 {
             sine *= wanted / sine_on_circle(&ray);
             ray = seen(2.0 * sine.min(1.0).asin())?;
         }
