@@ -3,7 +3,7 @@
 //! Near the shadow's edge neither holds alone: the edge is soft over a wave zone `x^{-2/3}`, which
 //! is 2 to 5 % of the forward amplitude at x = 1000 to 100, and from `θ ≈ x^{-1/3}` on diffraction
 //! fades while reflection sets in. Each point of the outline contributes its sharp edge (the shadow
-//! itself, [`ForwardDiffraction`]) and `E` of its [`super::edge_profile`]: near the axis as an
+//! itself, [`ForwardDiffraction`]) and `E` of its `edge_profile`: near the axis as an
 //! integral along the outline, farther out as the waves of the two points whose normals lie in the
 //! scattering plane. Rays well inside the edge stay with the meridian's plain segments.
 

@@ -6,10 +6,11 @@
 //! meridians are traced instead. Orders whose meridians do not correspond (more than two rays
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
-use super::arc::{Arc, ArcLayout};
+use super::arc::ArcLayout;
+use super::corresponding::trace;
 use super::edge::EdgeWave;
 use super::forward_diffraction::ForwardDiffraction;
-use super::meridian::{Meridian, Node, axial_ray};
+use super::meridian::axial_ray;
 use super::rim::{self, RimLayout};
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::sweep::{Samples, Side, Sums, add_segment};
@@ -69,13 +70,6 @@ const HALF_TURN_STEPS: usize = 40;
 const HALF_TURN_STEPS_RIM: usize = 60;
 /// Neighbours in the interpolation over azimuth.
 const STENCIL: usize = 8;
-/// Largest argument of the Airy functions on the lit side: there the two rays are well apart.
-const LIT_ZETA: f64 = 24.0;
-/// Argument on the dark side at which the field has died away.
-const DARK_ZETA: f64 = 7.5;
-/// Longest reach of a pair segment, radians: beyond, its Chebyshev series would need more points.
-const LONGEST_REACH: f64 = 0.3;
-const LONGEST_DARK: f64 = 0.45;
 /// Order times deformation from which meridians no longer correspond across the axis.
 const HOPELESS_TANGLE: f64 = 0.068;
 
@@ -380,115 +374,4 @@ impl Azimuths {
             }
         }
     }
-}
-
-/// Trace the meridians of an order and cut them into corresponding segments.
-fn trace(
-    tracer: &Tracer,
-    order: u32,
-    centre: [f64; 2],
-    places: &[f64],
-    mut layout: ArcLayout,
-    tangle: f64,
-) -> Option<Vec<Vec<Segment>>> {
-    let silhouette = tracer.shape().silhouette().tabulated();
-    let arc = |phi: f64| Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, &layout);
-    // A few meridians far apart tell soon whether all can correspond.
-    let probes = [0.0, 0.5, 1.0, 0.25, 0.75].map(|f| (f * (places.len() - 1) as f64) as usize);
-    let signature = arc(places[probes[0]])?.signature();
-    let differs = |k: &&usize| arc(places[**k]).is_none_or(|a| a.signature() != signature);
-    if probes.iter().filter(differs).count() > 1 {
-        return None;
-    }
-    let arcs: Vec<Option<Arc>> =
-        places.par_iter().map(|&phi| arc(phi).filter(|arc| arc.signature() == signature)).collect();
-    let found: Vec<&Arc> = arcs.iter().flatten().collect();
-    if places.len() - found.len() > most_missing(places.len()) {
-        return None;
-    }
-    layout.folds = fold_reaches(&found, layout.axis_gap, layout.size_parameter);
-    if let Some(rim) = &mut layout.rim {
-        let index = tracer.index().re;
-        rim.spread_knots(&found, layout.axis_gap, index, tangle, layout.size_parameter)?;
-    }
-    let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
-    for _ in 0..shrinks {
-        if let Some(found) = cut(&arcs, &layout) {
-            return Some(found);
-        }
-        layout.folds.iter_mut().for_each(|(dark, reach)| {
-            *dark *= 0.6;
-            *reach *= 0.95;
-        });
-    }
-    None
-}
-
-/// Meridians that may be filled from their neighbours: rays get lost here and there where a
-/// meridian grazes a tangle of rays.
-fn most_missing(count: usize) -> usize {
-    count / 10
-}
-
-/// How often the reach of pair segments is shortened when a complex ray cannot be found.
-const SHRINKS: usize = 6;
-
-/// Reach on the dark and lit side of each fold, common to all meridians.
-fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {
-    let measured: Vec<Vec<(f64, f64)>> = arcs.iter().map(|arc| arc.folds(axis_gap)).collect();
-    let count = measured.first().map_or(0, Vec::len);
-    let unit = size_parameter.powf(-2.0 / 3.0);
-    (0..count)
-        .map(|f| {
-            let weakest = measured.iter().map(|m| m[f].0).fold(f64::MAX, f64::min);
-            let room = measured.iter().map(|m| m[f].1).fold(f64::MAX, f64::min);
-            let dark = (DARK_ZETA * unit / weakest).min(LONGEST_DARK);
-            let reach = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
-            (dark, reach)
-        })
-        .collect()
-}
-
-/// All segments of all meridians, with common numbers of knots.
-fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
-    type Ends = Vec<[Node; 2]>;
-    let ends: Vec<Option<Ends>> =
-        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect();
-    let plain_count = ends.iter().flatten().next()?.len();
-    let pieces = |s: usize| {
-        ends.iter().flatten().map(|e| Arc::pieces(&e[s], layout.density)).max().unwrap_or(0)
-    };
-    let layout = ArcLayout { knots: (0..plain_count).map(pieces).collect(), ..layout.clone() };
-    let segments = |(arc, ends): (&Option<Arc>, &Option<Ends>)| -> Option<Vec<Segment>> {
-        arc.as_ref()?.segments(&layout, ends.as_ref()?)
-    };
-    let cut: Vec<Option<Vec<Segment>>> = arcs.par_iter().zip(&ends).map(segments).collect();
-    let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
-    let same_kind = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(template.iter().copied());
-    fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())
-}
-
-/// Fill meridians that were not found from the nearest on both sides. `None` when too many or an
-/// outer one is missing.
-fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
-    let count = meridians.len();
-    if meridians.iter().filter(|m| m.is_none()).count() > most_missing(count) {
-        return None;
-    }
-    for k in 0..count {
-        if meridians[k].is_some() {
-            continue;
-        }
-        let after = (k + 1..count).find(|&j| meridians[j].is_some())?;
-        let before = k.checked_sub(1)?;
-        let share = 1.0 / (after - before) as f64;
-        let (a, b) = (meridians[before].as_ref()?, meridians[after].as_ref()?);
-        let between = |(a, b): (&Segment, &Segment)| {
-            let knot =
-                |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
-            Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
-        };
-        meridians[k] = Some(a.iter().zip(b).map(between).collect());
-    }
-    meridians.into_iter().collect()
 }

@@ -1,11 +1,16 @@
 //! The far field: from rays that left the particle to amplitudes in any direction.
 //!
-//! Stages, each replaceable: sheets of rays cut into [`patch`]es, held in a [`collecting_sphere`];
-//! [`interference`] of all patches that contain a direction; diffraction by the
-//! [`gaussian_filter`] of Sadeghi et al. 2012; [`forward_diffraction`] by the silhouette.
+//! Two ways lead there. The main one follows, for each order, the rays that leave in one plane (a
+//! [`meridian`]), cuts them at their landmarks ([`arc`]) into [`segment`]s with the uniform formulas of
+//! [`fold`], [`rim`] and [`edge`], interpolates them over azimuth (a [`fan`]) and adds them up in a
+//! [`sweep`] over the samples. The other, that of Sadeghi et al. 2012 and the fallback for tangled
+//! orders: sheets of rays cut into [`patch`]es, held in a [`collecting_sphere`]; [`interference`] of
+//! all patches that contain a direction; diffraction by the [`gaussian_filter`]. [`forward_wave`] is
+//! what goes straight on; [`tabulate`] makes the values of a table.
 
 pub mod arc;
 pub mod collecting_sphere;
+mod corresponding;
 pub mod direction;
 pub mod edge;
 mod edge_profile;
