@@ -17,7 +17,7 @@ const TEMPERATURES: (f64, f64) = (261.15, 773.15);
 /// Source of the data, for the record.
 pub(super) const SOURCE: &str = "n: IAPWS R9-97 (Harvey, Gallagher & Levelt Sengers, J. Phys. \
     Chem. Ref. Data 27, 761, 1998), density: IAPWS SR6-08; k: Pope & Fry, Appl. Opt. 36, 8710 \
-    (1997) from 380 to 700 nm, Segelstein (1981) below 350 and above 720 nm, joined between";
+    (1997) from 380 to 700 nm, Segelstein (1981) below 350 and above 720 nm, joined smoothly";
 
 /// Index of liquid water at 1 atm; wavelength in metres, temperature in kelvin.
 pub(super) fn index(wavelength: f64, temperature: f64) -> Result<Complex64, MediumError> {
