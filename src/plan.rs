@@ -24,7 +24,18 @@ pub enum PlanError {
          for a sphere"
     )]
     TooAbsorbing { index: String, wavelength_nm: f64, size_parameter: f64, limit: f64 },
+    #[error(
+        "size parameter {size_parameter:.3e} at {wavelength_nm} nm: rays are accepted from {} to {:e} \
+         (below, there are no rays; above, phases lose their digits); use method = \"mie\" for a \
+         small sphere",
+        RAY_SIZES.0,
+        RAY_SIZES.1
+    )]
+    Size { wavelength_nm: f64, size_parameter: f64 },
 }
+
+/// Size parameters for which rays are accepted.
+pub const RAY_SIZES: (f64, f64) = (1.0, 1e9);
 
 /// Who computes the scattering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,6 +101,7 @@ impl Plan {
             .collect::<Result<Vec<_>, _>>()?;
         if matches!(engine, Engine::Meridians | Engine::Patches) {
             check_absorption(scene, radius, &indices)?;
+            check_size(scene, radius)?;
         }
         if indices.iter().all(|i| i.im == 0.0) {
             reasons.push("absorption is skipped: k = 0 at every wavelength".into());
@@ -217,6 +229,17 @@ fn symmetry(shape: &Shape, reasons: &mut Vec<String>) -> Symmetry {
     }
     reasons.push("half the azimuths are mirror images of the other half".into());
     Symmetry::Mirror
+}
+
+/// Rays need a particle of at least a wavelength around, and phases that f64 can hold.
+fn check_size(scene: &Scene, radius: f64) -> Result<(), PlanError> {
+    for &wavelength in &scene.wavelengths {
+        let size_parameter = std::f64::consts::TAU * radius / wavelength;
+        if !(RAY_SIZES.0..=RAY_SIZES.1).contains(&size_parameter) {
+            return Err(PlanError::Size { wavelength_nm: wavelength * 1e9, size_parameter });
+        }
+    }
+    Ok(())
 }
 
 fn check_absorption(

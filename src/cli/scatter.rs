@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 use gonio::medium::Medium;
 use gonio::optics::AmplitudeMatrix;
-use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, Symmetry, last_order};
+use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, RAY_SIZES, Symmetry, last_order};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::{RaindropModel, Shape};
@@ -273,6 +273,14 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         return Err(usage(format!(
             "--index {}+{}: rays need k/n below {LARGEST_K_OVER_N}; use --method mie for a sphere",
             job.index.re, job.index.im
+        )));
+    }
+    let (smallest, largest) = RAY_SIZES;
+    if !(smallest..=largest).contains(&job.size_parameter) {
+        return Err(usage(format!(
+            "size parameter {:e}: rays are accepted from {smallest} to {largest:e}; use --method mie \
+             for a small sphere",
+            job.size_parameter
         )));
     }
     if job.diffraction_term {
