@@ -10,7 +10,7 @@ use crate::farfield::patch;
 use crate::farfield::tabulate::{Tabulator, Values};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
-use crate::phase_table::{Axes, EnergyBudget, ForwardPeak, Slab, TableHeader};
+use crate::phase_table::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
 use crate::plan::{Engine, Plan, PlanError, Symmetry};
 use crate::scene::{Particle, Scene};
 use crate::series::SeriesError;
@@ -67,6 +67,20 @@ pub fn simulate<E: From<SimulateError>>(
         });
         receiver.into_iter().try_for_each(|(i, slab)| sink(i, slab?))
     })
+}
+
+/// A whole table in memory, for those who look at it at once.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
+    let header = header(scene, String::new())?;
+    let mut slabs = Vec::new();
+    simulate::<SimulateError>(scene, |_, slab| {
+        slabs.push(slab);
+        Ok(())
+    })?;
+    Ok(PhaseTable { header, slabs })
 }
 
 /// One wavelength of a table.

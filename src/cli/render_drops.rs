@@ -7,7 +7,7 @@ use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHea
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use gonio::series::lorenz_mie::Sphere;
-use gonio::simulate::{self, SimulateError};
+use gonio::simulate;
 use ndarray::Array3;
 use num_complex::Complex64;
 use rayon::prelude::*;
@@ -77,7 +77,7 @@ pub fn tables(
                 "sphere" => sphere(kind, folder, radius, polarised)?,
                 "raindrop" => {
                     match raindrop_scene(kind, folder, radius, sun_elevation_deg, polarised)? {
-                        Some(scene) => by_rays(&scene)?,
+                        Some(scene) => simulate::table(&scene)?,
                         None => sphere(kind, folder, radius, polarised)?,
                     }
                 }
@@ -227,14 +227,4 @@ fn raindrop_scene(
     let scene = file.validate_in(folder)?;
     let round = Plan::new(&scene)?.shape.is_sphere();
     Ok((!round).then_some(scene))
-}
-
-fn by_rays(scene: &Scene) -> anyhow::Result<PhaseTable> {
-    let header = simulate::header(scene, String::new())?;
-    let mut slabs = Vec::new();
-    simulate::simulate::<SimulateError>(scene, |_, slab| {
-        slabs.push(slab);
-        Ok(())
-    })?;
-    Ok(PhaseTable { header, slabs })
 }

@@ -14,6 +14,7 @@ use super::meridian::Meridian;
 use super::segment::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::taper::Taper;
 use crate::math::gauss_legendre;
+use crate::math::half_turn::shares;
 use crate::optics::{AmplitudeMatrix, Grazing, fresnel};
 use crate::trace::Tracer;
 use num_complex::Complex64;
@@ -143,7 +144,7 @@ pub struct EdgeWave {
 
 /// Profiles per half-turn, and neighbours in the interpolation between them.
 const HALF_TURN_STEPS: usize = 20;
-const STENCIL: i64 = 6;
+const STENCIL: usize = 6;
 /// Points of the outline in the integral near the axis: enough for 20 lobes.
 const OUTLINE_POINTS: usize = 160;
 
@@ -186,20 +187,13 @@ impl EdgeWave {
 
     /// The profile of any azimuth of the normal.
     fn profile(&self, azimuth: f64) -> EdgeProfile {
-        let last = self.profiles.len() as i64 - 1;
-        if last == 0 {
+        if self.profiles.len() == 1 {
             return self.profiles[0].clone();
         }
-        let place = azimuth.rem_euclid(TAU) / PI * last as f64;
-        let first = place.floor() as i64 - (STENCIL / 2 - 1);
         let knots = vec![[[Complex64::default(); 4]; 2]; self.layout.angles.len()];
         let mut sum = EdgeProfile { edge: Edge::default(), outline_radius: 0.0, knots };
-        for k in 0..STENCIL {
-            let at = place - first as f64;
-            let others = (0..STENCIL).filter(|&j| j != k);
-            let weight: f64 = others.map(|j| (at - j as f64) / (k - j) as f64).product();
-            let folded = (first + k).rem_euclid(2 * last);
-            let from = &self.profiles[folded.min(2 * last - folded) as usize];
+        for share in shares::<STENCIL>(azimuth, self.profiles.len()) {
+            let (weight, from) = (share.weight, &self.profiles[share.index]);
             sum.edge.support += weight * from.edge.support;
             sum.edge.depth += weight * from.edge.depth;
             sum.edge.radius += weight * from.edge.radius;

@@ -15,6 +15,7 @@ use super::rim::{self, RimLayout};
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::sweep::{Samples, Side, Sums, add_segment};
 use crate::math::fused::multiply_add;
+use crate::math::half_turn::shares;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use multiversion::multiversion;
@@ -240,18 +241,15 @@ impl OrderFan {
 
     /// A segment between the traced azimuths, by a polynomial through eight of them.
     fn interpolated(&self, number: usize, azimuth: f64) -> Segment {
-        let steps = (self.meridians.len() - 1) as f64;
-        let place = azimuth / PI * steps;
-        let first = place.floor() as i64 - (STENCIL as i64 / 2 - 1);
-        let shares = lagrange_weights(place - first as f64);
         let template = &self.meridians[0][number];
         let parity = parity(&template.kind);
         let mut weights = [[0.0; CHANNELS]; STENCIL];
         let mut sources: [&[Knot]; STENCIL] = [&[]; STENCIL];
-        for (k, &share) in shares.iter().enumerate() {
-            let (source, mirrored) = fold_index(first + k as i64, self.meridians.len());
-            sources[k] = &self.meridians[source][number].knots;
-            weights[k] = if mirrored { parity.map(|p| p * share) } else { [share; CHANNELS] };
+        for (k, share) in shares::<STENCIL>(azimuth, self.meridians.len()).iter().enumerate() {
+            sources[k] = &self.meridians[share.index][number].knots;
+            let weight = share.weight;
+            weights[k] =
+                if share.mirrored { parity.map(|p| p * weight) } else { [weight; CHANNELS] };
         }
         let mut knots = vec![[0.0; CHANNELS]; template.knots.len()];
         blend(&mut knots, &sources, &weights);
@@ -318,13 +316,6 @@ fn rim_layout(
     Some(RimLayout::new(marks, rotational))
 }
 
-/// Index of the meridian at step `k`, whether it is a mirror image.
-fn fold_index(k: i64, count: usize) -> (usize, bool) {
-    let last = count as i64 - 1;
-    let turned = k.rem_euclid(2 * last);
-    if turned > last { ((2 * last - turned) as usize, true) } else { (turned as usize, false) }
-}
-
 /// Sign of each channel in the mirror: S3 and S4 change theirs.
 fn parity(kind: &Kind) -> Knot {
     let odd: &[usize] = match kind {
@@ -341,14 +332,6 @@ fn mirror(segment: &mut Segment) {
             *value *= sign;
         }
     }
-}
-
-/// Weights of the polynomial through 0 … STENCIL-1 at `x`.
-fn lagrange_weights(x: f64) -> [f64; STENCIL] {
-    std::array::from_fn(|i| {
-        let factor = |j: usize| (x - j as f64) / (i as f64 - j as f64);
-        (0..STENCIL).filter(|&j| j != i).map(factor).product()
-    })
 }
 
 fn azimuths(tracer: &Tracer, settings: &FanSettings) -> Azimuths {

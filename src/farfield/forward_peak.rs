@@ -9,6 +9,7 @@
 use super::direction::Direction;
 use super::edge::near_axis;
 use super::forward_wave::ForwardWave;
+use crate::math::half_turn::shares;
 use crate::optics::AmplitudeMatrix;
 use std::f64::consts::PI;
 
@@ -90,7 +91,7 @@ pub struct PeakSample {
 }
 
 /// Neighbours in the interpolation over azimuth.
-const STENCIL: i64 = 6;
+const STENCIL: usize = 6;
 
 impl PeakRows {
     /// Compute the rows for samples `theta`; the outline's deformation sets how many azimuths.
@@ -105,21 +106,14 @@ impl PeakRows {
 
     /// Samples of all cells at an azimuth in [0, π].
     pub fn at(&self, azimuth: f64) -> Vec<PeakSample> {
-        let last = self.rows.len() as i64 - 1;
-        if last == 0 {
+        if self.rows.len() == 1 {
             return self.rows[0].clone();
         }
-        let place = azimuth / PI * last as f64;
-        let first = place.floor() as i64 - (STENCIL / 2 - 1);
         let mut found = vec![PeakSample::default(); self.rows[0].len()];
-        for k in 0..STENCIL {
-            let x = place - first as f64;
-            let others = (0..STENCIL).filter(|&j| j != k);
-            let weight: f64 = others.map(|j| (x - j as f64) / (k - j) as f64).product();
-            let folded = (first + k).rem_euclid(2 * last);
-            let row = &self.rows[folded.min(2 * last - folded) as usize];
+        for share in shares::<STENCIL>(azimuth, self.rows.len()) {
+            let (weight, row) = (share.weight, &self.rows[share.index]);
             // S3 and S4 change sign in the mirror
-            let cross = if folded > last { -weight } else { weight };
+            let cross = if share.mirrored { -weight } else { weight };
             for (sum, sample) in found.iter_mut().zip(row) {
                 let AmplitudeMatrix { s1, s2, s3, s4 } = sample.amplitude;
                 let (s1, s2, s3, s4) = (s1 * weight, s2 * weight, s3 * cross, s4 * cross);

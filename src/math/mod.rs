@@ -5,6 +5,7 @@ pub mod chebyshev;
 pub mod cosine_series;
 pub mod fused;
 pub mod gauss_legendre;
+pub mod half_turn;
 pub mod interpolate;
 pub mod monotone;
 pub mod phase;

@@ -4,12 +4,12 @@
 use crate::cli::{UsageError, progress};
 use anyhow::Context;
 use gonio::compare::{Case, Entry, OrderPair};
-use gonio::phase_table::{ForwardPeak, PhaseTable, Quantity};
+use gonio::phase_table::{ForwardPeak, Quantity};
 use gonio::plan::Plan;
 use gonio::scene::{
     Choice, Diffraction, Grid, Method, Orders, Particle, Scene, SceneFile, SceneText, ShapeName,
 };
-use gonio::simulate::{self, SimulateError};
+use gonio::simulate;
 use indicatif::ProgressBar;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -139,7 +139,7 @@ impl Runs {
     fn compute(&self, bar: &ProgressBar) -> anyhow::Result<Case> {
         let entry = |name: String, scene: &Scene| {
             let start = Instant::now();
-            let table = table(scene).with_context(|| name.clone())?;
+            let table = simulate::table(scene).with_context(|| name.clone())?;
             bar.inc(1);
             anyhow::Ok(Entry { name, table, seconds: Some(start.elapsed().as_secs_f64()) })
         };
@@ -162,14 +162,4 @@ impl Runs {
 
 fn method(flags: &mut SceneFile, method: Method) {
     flags.model.method = Some(Choice(method));
-}
-
-fn table(scene: &Scene) -> anyhow::Result<PhaseTable> {
-    let header = simulate::header(scene, String::new())?;
-    let mut slabs = Vec::new();
-    simulate::simulate::<SimulateError>(scene, |_, slab| {
-        slabs.push(slab);
-        Ok(())
-    })?;
-    Ok(PhaseTable { header, slabs })
 }
