@@ -9,7 +9,7 @@
 //! edge; `L` (zero for a sphere) and the spreading are polynomials through real rays. In the Debye
 //! series this is the sum of the terms "diffraction" and "p = 0" (Nussenzveig 1969, sec. 4).
 
-use super::edge::Layout;
+use super::edge_layout::Layout;
 use super::meridian::Meridian;
 use super::rim_integrand::Integrand;
 use super::taper::Taper;

@@ -7,7 +7,7 @@
 //! `x^(-2/3)` and the wave between diffraction and rays), so that the table sums to 1.
 
 use super::direction::Direction;
-use super::edge::near_axis;
+use super::edge_layout::near_axis;
 use super::forward_wave::ForwardWave;
 use crate::math::half_turn::shares;
 use crate::optics::AmplitudeMatrix;

@@ -2,7 +2,8 @@
 //! reflection is computed beside it.
 
 use super::direction::Direction;
-use super::edge::{EdgeWave, near_axis};
+use super::edge::EdgeWave;
+use super::edge_layout::near_axis;
 use super::forward_diffraction::ForwardDiffraction;
 use crate::optics::AmplitudeMatrix;
 use num_complex::Complex64;

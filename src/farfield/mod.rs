@@ -13,6 +13,7 @@ pub mod collecting_sphere;
 mod corresponding;
 pub mod direction;
 pub mod edge;
+mod edge_layout;
 mod edge_profile;
 pub mod fan;
 pub mod fold;
