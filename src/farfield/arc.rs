@@ -7,7 +7,8 @@
 
 use super::fold::{Fold, PAIR_CHANNELS};
 use super::meridian::{GRAZING, Meridian, Node};
-use super::rim::{RimLayout, rim_wave};
+use super::axis_wave::AxisWave;
+use super::rim::{RimLayout, RimWave};
 use super::segment::{
     CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
 };
@@ -227,9 +228,39 @@ impl<'a> Arc<'a> {
             segments.push(self.plain_segment([&pair[0], &pair[1]], ends, *count, layout)?);
         }
         if let Some(rim) = &layout.rim {
-            segments.push(rim_wave(self, rim, layout.size_parameter)?);
+            segments.extend(RimWave::new(self, rim, layout.size_parameter)?.segments()?);
         }
         Some(segments)
+    }
+
+    /// The waves about the axis of rays that cross it, in a rotationally symmetric scene.
+    pub(super) fn axis_waves(&self, layout: &ArcLayout) -> Vec<AxisWave> {
+        let (reach, x) = (layout.axis_gap, layout.size_parameter);
+        let launch = |landmark: &Landmark| match landmark {
+            Landmark::Axial => Some(0.0),
+            Landmark::Fold(fold) => Some(fold.alpha.sin()),
+            Landmark::End(node) => Some(node.alpha.sin()),
+            Landmark::Axis(axis) => self.crossing(*axis),
+        };
+        let crossing = |around: &[Landmark]| {
+            let Landmark::Axis(axis) = around[1] else { return None };
+            let side = |is_start| self.find(Edge::Axis { axis, gap: reach }, is_start);
+            let (before, after) = (side(false)?, side(true)?);
+            let limits = [launch(&around[0])?, launch(&around[2])?];
+            let number = (axis / PI).round() as i64;
+            let share = |sin: f64| layout.rim.as_ref().map_or(1.0, |rim| 1.0 - rim.weight(sin));
+            AxisWave::of_crossing(self, share, [&before, &after], limits, number, reach, x)
+        };
+        let mut waves: Vec<AxisWave> = self.landmarks.windows(3).filter_map(crossing).collect();
+        let rim = layout.rim.as_ref().and_then(|rim| RimWave::new(self, rim, x));
+        waves.extend(rim.iter().flat_map(|rim| rim.about_axes(reach)));
+        waves
+    }
+
+    /// Where the first scan crosses an axis.
+    fn crossing(&self, axis: f64) -> Option<f64> {
+        let crosses = |w: &&[Node]| (w[0].angle - axis) * (w[1].angle - axis) <= 0.0;
+        self.nodes.windows(2).skip(1).find(crosses).map(|w| w[0].alpha.sin())
     }
 
     /// The ray where a plain segment begins or ends at a landmark; towards the neighbour given by
@@ -268,13 +299,14 @@ impl<'a> Arc<'a> {
         count: usize,
         layout: &ArcLayout,
     ) -> Option<Segment> {
-        let ends = matches!(end, Landmark::End(_));
+        let closer = [
+            matches!(start, Landmark::Axis(_)),
+            matches!(end, Landmark::End(_) | Landmark::Axis(_)),
+        ];
         let mut knots = Vec::with_capacity(count + 1);
         let mut focal_lines = a.exit.focal_lines;
         for k in 0..=count {
-            let share = k as f64 / count as f64;
-            // towards the rim or total reflection the exit angle runs like a square root
-            let share = if ends { share * (2.0 - share) } else { share };
+            let share = graded(k as f64 / count as f64, closer);
             let node = if k == 0 {
                 *a
             } else if k == count {
@@ -388,7 +420,8 @@ impl<'a> Arc<'a> {
     fn bounded_spread(&self, node: &Node) -> f64 {
         const NEAREST: f64 = 0.05;
         let spread = node.exit.spread().abs();
-        if self.meridian.order <= 3 {
+        let symmetric = self.meridian.tracer.shape().rotational_symmetry();
+        if self.meridian.order <= 3 || symmetric {
             return spread;
         }
         let across = self.meridian.spread_across(&node.exit, node.angle).abs();
@@ -431,6 +464,18 @@ fn reflected_share(edge: &Taper, angle: f64, x: f64) -> Complex64 {
     let sin = (1.0 - cos * cos).sqrt();
     let (second, relative) = (-2.0 / sin, cos / (sin * sin));
     Complex64::new(1.0 - weight, (relative * slope - bend) / (2.0 * x * second))
+}
+
+/// A share of the way from 0 to 1 in steps that get closer towards either end: towards the rim or
+/// total reflection the exit angle runs like a square root, and from the axis the amplitude falls
+/// like one over it.
+fn graded(share: f64, closer: [bool; 2]) -> f64 {
+    match closer {
+        [false, false] => share,
+        [false, true] => share * (2.0 - share),
+        [true, false] => share * share,
+        [true, true] => share * share * (3.0 - 2.0 * share),
+    }
 }
 
 /// Where a plain segment begins or ends.

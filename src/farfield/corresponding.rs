@@ -2,6 +2,7 @@
 //! correspond: the same landmarks, the same knots.
 
 use super::arc::{Arc, ArcLayout};
+use super::axis_wave::AxisWave;
 use super::meridian::{Meridian, Node};
 use super::segment::{Kind, Knot, Segment};
 use crate::trace::Tracer;
@@ -15,6 +16,13 @@ const DARK_ZETA: f64 = 7.5;
 const LONGEST_REACH: f64 = 0.3;
 const LONGEST_DARK: f64 = 0.45;
 
+/// What is traced of an order.
+pub(super) struct Traced {
+    pub meridians: Vec<Vec<Segment>>,
+    /// Waves about the axis, in rotationally symmetric scenes.
+    pub about_axis: Vec<AxisWave>,
+}
+
 /// Trace the meridians of an order and cut them into corresponding segments.
 pub(super) fn trace(
     tracer: &Tracer,
@@ -23,7 +31,7 @@ pub(super) fn trace(
     places: &[f64],
     mut layout: ArcLayout,
     tangle: f64,
-) -> Option<Vec<Vec<Segment>>> {
+) -> Option<Traced> {
     let silhouette = tracer.shape().silhouette().tabulated();
     let arc = |phi: f64| Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, &layout);
     // A few meridians far apart tell soon whether all can correspond.
@@ -46,8 +54,10 @@ pub(super) fn trace(
     }
     let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
     for _ in 0..shrinks {
-        if let Some(found) = cut(&arcs, &layout) {
-            return Some(found);
+        if let Some(meridians) = cut(&arcs, &layout) {
+            let symmetric = tracer.shape().rotational_symmetry();
+            let about_axis = if symmetric { found.first()?.axis_waves(&layout) } else { Vec::new() };
+            return Some(Traced { meridians, about_axis });
         }
         layout.folds.iter_mut().for_each(|(dark, reach)| {
             *dark *= 0.6;

@@ -7,7 +7,8 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`Fan::irregular`].
 
 use super::arc::ArcLayout;
-use super::corresponding::trace;
+use super::axis_wave::AxisWave;
+use super::corresponding::{Traced, trace};
 use super::edge::EdgeWave;
 use super::forward_diffraction::ForwardDiffraction;
 use super::meridian::axial_ray;
@@ -38,6 +39,8 @@ struct OrderFan {
     meridians: Vec<Vec<Segment>>,
     /// Lowest and highest angle of each segment over all meridians, with some room.
     spans: Vec<(f64, f64)>,
+    /// Waves about the axis, where nothing depends on azimuth.
+    about_axis: Vec<AxisWave>,
     axis_gap: f64,
     azimuths: Azimuths,
 }
@@ -143,13 +146,18 @@ impl Fan {
                 }
             }
         }
-        sums.into_iter().map(|sums| sums.amplitudes()).collect()
+        let mut columns: Vec<Vec<AmplitudeMatrix>> =
+            sums.into_iter().map(|sums| sums.amplitudes()).collect();
+        for wave in self.orders.iter().flat_map(|fan| &fan.about_axis) {
+            columns.iter_mut().for_each(|column| wave.add(theta, column));
+        }
+        columns
     }
 
     /// How many rays more than two may coalesce near each sample: 3 within an axis gap, else 0.
     pub fn caustic_order(&self, theta: &[f64]) -> Vec<u8> {
         let gap = |axis: f64| {
-            let meets = |f: &&OrderFan| f.crosses(axis);
+            let meets = |f: &&OrderFan| f.about_axis.is_empty() && f.crosses(axis);
             self.orders.iter().filter(meets).map(|f| f.axis_gap).fold(0.0, f64::max)
         };
         let (forward, backward) = (gap(0.0), gap(PI));
@@ -197,12 +205,13 @@ impl OrderFan {
                 rim,
                 edge: edge.map(EdgeWave::taper),
             };
-            let mut meridians = trace(tracer, order, centre, &places, layout, tangle)?;
+            let Traced { mut meridians, about_axis } =
+                trace(tracer, order, centre, &places, layout, tangle)?;
             for (segments, &azimuth) in meridians.iter_mut().zip(&places) {
                 segments.extend(edge.iter().flat_map(|edge| edge.segments(azimuth)));
             }
             let spans = spans(&meridians);
-            Some(Self { meridians, spans, axis_gap, azimuths: azimuths.clone() })
+            Some(Self { meridians, spans, about_axis, axis_gap, azimuths: azimuths.clone() })
         })
     }
 

@@ -9,6 +9,7 @@
 //! what goes straight on; [`tabulate`] makes the values of a table.
 
 pub mod arc;
+mod axis_wave;
 pub mod collecting_sphere;
 mod corresponding;
 pub mod direction;

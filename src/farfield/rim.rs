@@ -17,13 +17,13 @@
 //! to the plain segments of the meridian, with the weight's complement.
 
 use super::arc::Arc;
-use super::meridian::Node;
-use super::rim_integrand::Sums;
-use super::rim_rays::{RAYS, Rays};
+use super::axis_wave::AxisWave;
+use super::rim_integrand::{Integrand, Sums};
+use super::rim_rays::{Prefactor, RAYS, Rays};
 use super::segment::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::taper::Taper;
 use num_complex::Complex64;
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// Where the integral takes over, and the knots of its wave; common to all meridians of an order.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,19 +33,21 @@ pub struct RimLayout {
     pub full: f64,
     /// Launch point `sin α` of a sphere's bow.
     pub bow: f64,
-    /// Knots: angles from the anchor, and the slope of the reference path there relative to its
-    /// impact.
-    pub knots: Vec<[f64; 2]>,
+    /// Knots between axes: angles from the anchor, and the slope of the reference path there relative
+    /// to its impact.
+    pub knots: Vec<Vec<[f64; 2]>>,
     /// Degree of the polynomials through real rays.
     pub(super) degree: usize,
     /// Share of the stretch from `start` to the rim that is left out before the last ray.
     pub(super) spare: f64,
+    /// Whether nothing depends on azimuth.
+    rotational: bool,
 }
 
 /// Lowest order served, and the same for deformed particles: there the secondary bow's wave changes
 /// too fast with azimuth to be interpolated, its penumbra from continued polynomials is not
 /// reciprocal, and two rays serve nearly as well.
-const FIRST_ORDER: u32 = 3;
+const FIRST_ORDER: u32 = 2;
 const FIRST_ORDER_DEFORMED: u32 = 4;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
@@ -90,31 +92,48 @@ pub fn taper(
     const DEEPEST: f64 = 0.3;
     const FEWEST_WIDTHS: f64 = 2.0;
     const FEWEST_ZONES: f64 = 5.0;
+    /// Distance from the axis at which rays are clear of it, in gaps.
+    const AXIS_GAPS: f64 = 1.25;
     let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
     let b = bow(index, order).filter(|_| order >= first)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
-    let full = b - AIRY_WIDTHS * airy - tangle;
+    let mut full = b - AIRY_WIDTHS * airy - tangle;
+    if rotational {
+        full = below_axis(index, order, full, AXIS_GAPS * axis_gap);
+    }
     if full < DEEPEST {
         return None;
     }
     let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
-    let zones = if order == FIRST_ORDER { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
-    let start = (full - zones * zone(full)).max(0.5 * full);
-    let start = start.max(clear_of_axis(index, order, b, 1.25 * axis_gap)?);
-    let full = full.max(start + FEWEST_ZONES * zone(full));
-    (full < b - FEWEST_WIDTHS * airy).then_some([start, full, b])
+    let zones = if order <= FIRST_ORDER { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
+    let mut start = (full - zones * zone(full)).max(0.5 * full);
+    if !rotational {
+        start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
+        full = full.max(start + FEWEST_ZONES * zone(full));
+    }
+    let serves = full < b - FEWEST_WIDTHS * airy && full - start > 0.99 * FEWEST_ZONES * zone(full);
+    serves.then_some([start, full, b])
+}
+
+/// The impact `b`, or the next one below it where a sphere's rays keep this far from the axis.
+fn below_axis(index: f64, order: u32, b: f64, gap: f64) -> f64 {
+    const STEP: f64 = 0.002;
+    let near = |b: &f64| from_axis(index, order, *b) < gap;
+    (0..).map(|k| b - STEP * f64::from(k)).find(|b| *b < 0.0 || !near(b)).unwrap_or(0.0)
+}
+
+/// Angle between the axis and a sphere's ray.
+fn from_axis(index: f64, order: u32, b: f64) -> f64 {
+    let angle = deviation(index, order, b);
+    (angle - (angle / PI).round() * PI).abs()
 }
 
 /// Least impact from which on, to the bow's ray, a sphere's rays keep this far from the axis.
 fn clear_of_axis(index: f64, order: u32, bow: f64, gap: f64) -> Option<f64> {
     const STEPS: u32 = 200;
-    let from_axis = |b: f64| {
-        let angle = deviation(index, order, b);
-        (angle - (angle / PI).round() * PI).abs()
-    };
     let steps = (0..STEPS).map(|k| bow * (1.0 - f64::from(k) / f64::from(STEPS)));
-    let clear: Vec<f64> = steps.take_while(|&b| from_axis(b) > gap).collect();
+    let clear: Vec<f64> = steps.take_while(|&b| from_axis(index, order, b) > gap).collect();
     clear.last().copied()
 }
 
@@ -126,20 +145,7 @@ impl RimLayout {
         // the last rays meet the surface so flatly that their differentials lose digits, and on
         // deformed particles path and angles have a part there that is odd in the grazing angle
         let spare = if rotational { 0.002 } else { 0.02 };
-        Self { start, full, bow, knots: Vec::new(), degree, spare }
-    }
-
-    /// For each knot the part of the reference path that is due to the knots' own slopes.
-    fn turned_paths(&self) -> Vec<f64> {
-        let step = |w: &[[f64; 2]]| 0.5 * (w[0][1] + w[1][1]) * (w[1][0] - w[0][0]);
-        let mut paths = vec![0.0];
-        for pair in self.knots.windows(2) {
-            paths.push(paths[paths.len() - 1] + step(pair));
-        }
-        let nearest = |k: &usize| self.knots[*k][0].abs();
-        let zero = (0..paths.len()).min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(0);
-        let offset = paths[zero];
-        paths.iter().map(|path| path - offset).collect()
+        Self { start, full, bow, knots: Vec::new(), degree, spare, rotational }
     }
 
     /// Weight of the integral for a launch point `sin α`.
@@ -161,9 +167,10 @@ impl RimLayout {
         const DARK_ZETA: f64 = 7.5;
         const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
-        const NEAREST_AXIS: f64 = 0.03;
         const FARTHEST_PENUMBRA: f64 = 0.5;
-        self.keeps_off_axis(arcs, axis_gap)?;
+        if !self.rotational {
+            self.keeps_off_axis(arcs, axis_gap)?;
+        }
         let marks: Vec<Marks> =
             arcs.iter().map(|arc| Marks::of(arc, self)).collect::<Option<_>>()?;
         let sense = marks[0].sense;
@@ -179,17 +186,14 @@ impl RimLayout {
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
         let spare = 0.1 * tangle + zone + x.powf(-2.0 / 3.0);
         let stretch = [begin, start, bow_at, bow_at + dark];
-        self.knots = knots(stretch, sense, [self.start, self.bow], spare, x)?;
-        // waves from all azimuths meet at the axis
-        for mark in &marks {
-            let nearest = (mark.anchor / PI).round() * PI - mark.anchor;
-            self.knots.retain(|k| {
-                [nearest - PI, nearest, nearest + PI]
-                    .iter()
-                    .all(|axis| axis.signum() * k[0] < axis.abs() - NEAREST_AXIS)
-            });
-        }
-        (self.knots.len() > 4).then_some(())
+        let all = knots(stretch, sense, [self.start, self.bow], spare, x)?;
+        self.knots = if self.rotational {
+            between_axes(&all, marks[0].anchor, axis_gap)
+        } else {
+            vec![before_axis(all, &marks)]
+        };
+        self.knots.retain(|run| run.len() > 1);
+        (!self.knots.is_empty()).then_some(())
     }
 
     /// `None` where rays in the taper leave too near the axis.
@@ -200,6 +204,55 @@ impl RimLayout {
         };
         arcs.iter().try_for_each(clear)
     }
+}
+
+/// The runs of knots between axes, each ending exactly this far from them: closer by, waves from all
+/// azimuths meet.
+fn between_axes(knots: &[[f64; 2]], anchor: f64, gap: f64) -> Vec<Vec<[f64; 2]>> {
+    let (first, last) = (knots[0][0], knots[knots.len() - 1][0]);
+    let (low, high) = (first.min(last), first.max(last));
+    let half_turn = |offset: f64| ((anchor + offset) / PI).floor() as i64;
+    let off = |knot: &[f64; 2], angle: f64| (knot[0] - angle).abs();
+    let nearest = |angle: f64| {
+        let knot = knots.iter().min_by(|a, b| off(a, angle).total_cmp(&off(b, angle)));
+        [angle, knot.map_or(0.0, |knot| knot[1])]
+    };
+    let run = |number: i64| {
+        let from = (PI * number as f64 + gap - anchor).max(low);
+        let to = (PI * (number + 1) as f64 - gap - anchor).min(high);
+        let [begin, end] = if first < last { [from, to] } else { [to, from] };
+        let inside = knots.iter().copied().filter(|knot| from < knot[0] && knot[0] < to);
+        let run = std::iter::once(nearest(begin)).chain(inside).chain([nearest(end)]).collect();
+        (from < to).then_some(run)
+    };
+    (half_turn(low)..=half_turn(high)).filter_map(run).collect()
+}
+
+/// The knots on the bow's side of the axis, on all meridians.
+fn before_axis(mut knots: Vec<[f64; 2]>, marks: &[Marks]) -> Vec<[f64; 2]> {
+    const NEAREST_AXIS: f64 = 0.03;
+    for mark in marks {
+        let nearest = (mark.anchor / PI).round() * PI - mark.anchor;
+        knots.retain(|k| {
+            [nearest - PI, nearest, nearest + PI]
+                .iter()
+                .all(|axis| axis.signum() * k[0] < axis.abs() - NEAREST_AXIS)
+        });
+    }
+    knots
+}
+
+/// For each knot the part of the reference path that is due to the knots' own slopes.
+fn turned_paths(knots: &[[f64; 2]]) -> Vec<f64> {
+    let step = |w: &[[f64; 2]]| 0.5 * (w[0][1] + w[1][1]) * (w[1][0] - w[0][0]);
+    let mut paths = vec![0.0];
+    for pair in knots.windows(2) {
+        paths.push(paths[paths.len() - 1] + step(pair));
+    }
+    let nearest = |k: &usize| knots[*k][0].abs();
+    let zero = (0..paths.len()).min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap_or(0);
+    let offset = paths[zero];
+    paths.iter().map(|path| path - offset).collect()
 }
 
 /// Angle over which the argument of a sphere's Airy function grows by 1.
@@ -226,7 +279,7 @@ impl Marks {
         let first = arc.ray_at(layout.start)?.angle;
         let [farthest, last] = arc.reaches(layout.start, layout.full)?;
         let sense = farthest.signum();
-        let anchor = Rays::through(arc, layout)?.anchor(layout.bow).angle;
+        let anchor = Rays::to_rim(arc, layout)?.anchor(layout.bow).angle;
         let start = sense * (first - anchor);
         Some(Self {
             anchor,
@@ -266,32 +319,68 @@ fn knots(
     None
 }
 
-/// The rim wave of a meridian. `None` where its rays cannot be followed that far.
-pub fn rim_wave(arc: &Arc, layout: &RimLayout, size_parameter: f64) -> Option<Segment> {
-    let meridian = arc.meridian();
-    let first = arc.ray_at(layout.start)?;
-    let rays = Rays::through(arc, layout)?;
-    let length = (layout.knots.last()?[0] - layout.knots.first()?[0]).abs();
-    let integrand = rays.integrand(layout, meridian.tracer.index(), size_parameter, length)?;
-    let ahead = arc.ray_at(layout.start + 0.01 * (layout.full - layout.start))?;
-    let impact = |node: &Node| node.exit.reference.dot(meridian.frame(node.angle).1);
-    let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
-    let phase =
-        Complex64::cis(-FRAC_PI_2 * (1.0 + f64::from(first.exit.focal_lines)) - FRAC_PI_4 * turn);
-    let scale = (size_parameter / TAU).sqrt();
-    // towards the rim impacts grow in size
-    let sense = impact(&first).signum();
-    let anchor = rays.anchor(layout.bow);
-    let mut knots = Vec::with_capacity(layout.knots.len());
-    for (&[offset, shift], &turned) in layout.knots.iter().zip(&layout.turned_paths()) {
-        let angle = anchor.angle + offset;
-        let path = anchor.path - anchor.impact * offset - sense * turned;
-        let slope = -(anchor.impact + sense * shift);
-        let factor = phase * scale / angle.sin().abs().sqrt();
-        let sums = integrand.sum(angle, path, size_parameter);
-        knots.push(knot(angle, path, slope, factor, &sums, size_parameter));
+/// The integral over rays near the rim of one meridian.
+pub(super) struct RimWave<'l> {
+    layout: &'l RimLayout,
+    rays: Rays,
+    before: Prefactor,
+    integrand: Integrand,
+    size_parameter: f64,
+}
+
+impl<'l> RimWave<'l> {
+    /// `None` where its rays cannot be followed that far.
+    pub(super) fn new(arc: &Arc, layout: &'l RimLayout, size_parameter: f64) -> Option<Self> {
+        // the phase's slope strays beyond the knots by this at most
+        const STRAY: f64 = 0.5;
+        let index = arc.meridian().tracer.index();
+        let rays = Rays::to_rim(arc, layout)?;
+        let offsets = || layout.knots.iter().flatten().map(|knot| knot[0]);
+        let (low, high) = (offsets().fold(f64::MAX, f64::min), offsets().fold(f64::MIN, f64::max));
+        let end = rays.end_of_tunnel(index, size_parameter);
+        let spread = high - low + STRAY;
+        let weight = |sin: f64| layout.weight(sin);
+        let integrand = rays.integrand(weight, end, spread, index, size_parameter)?;
+        let ahead = layout.start + 0.01 * (layout.full - layout.start);
+        let before = Prefactor::between(arc, [layout.start, ahead], size_parameter)?;
+        Some(Self { layout, rays, before, integrand, size_parameter })
     }
-    knots.iter().flatten().all(|v| v.is_finite()).then_some(Segment { kind: Kind::Wave, knots })
+
+    /// The wave as segments, one for each run of knots.
+    pub(super) fn segments(&self) -> Option<Vec<Segment>> {
+        self.layout.knots.iter().map(|run| self.segment(run)).collect()
+    }
+
+    fn segment(&self, run: &[[f64; 2]]) -> Option<Segment> {
+        let x = self.size_parameter;
+        // towards the rim impacts grow in size
+        let sense = self.before.sense;
+        let anchor = self.rays.anchor(self.layout.bow);
+        let mut knots = Vec::with_capacity(run.len());
+        for (&[offset, shift], &turned) in run.iter().zip(&turned_paths(run)) {
+            let angle = anchor.angle + offset;
+            let path = anchor.path - anchor.impact * offset - sense * turned;
+            let slope = -(anchor.impact + sense * shift);
+            let factor = self.before.towards(angle) / angle.sin().abs().sqrt();
+            let sums = self.integrand.sum(angle, path, x);
+            knots.push(knot(angle, path, slope, factor, &sums, x));
+        }
+        let finite = knots.iter().flatten().all(|v| v.is_finite());
+        finite.then_some(Segment { kind: Kind::Wave, knots })
+    }
+
+    /// The wave about each axis between its knots.
+    pub(super) fn about_axes(&self, reach: f64) -> Vec<AxisWave> {
+        let anchor = self.rays.anchor(self.layout.bow).angle;
+        let all = || self.layout.knots.iter().flatten().map(|knot| (anchor + knot[0]) / PI);
+        let (low, high) = all().fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(a), h.max(a)));
+        let spare = 1.5 * reach / PI;
+        let (from, to) = ((low - spare).ceil() as i64, (high + spare).floor() as i64);
+        let wave = |number: i64| {
+            AxisWave::new(&self.integrand, &self.before, number, reach, self.size_parameter)
+        };
+        (from..=to).map(wave).collect()
+    }
 }
 
 fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f64) -> Knot {

@@ -13,7 +13,7 @@ use crate::math::vec3::Vec3;
 use crate::optics::{Grazing, curved_from_inside};
 use crate::trace::Meeting;
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// Real rays through which the polynomials pass.
 pub(super) const RAYS: usize = 20;
@@ -47,6 +47,43 @@ pub(super) struct Anchor {
     pub path: f64,
 }
 
+/// What stands before the integral, `-i √(x/2π) e^{-iπm/2 ∓ iπ/4}` for `m` focal lines, where one ray
+/// leaves. Waves that pass the axis pass a focal line more or less there.
+pub(super) struct Prefactor {
+    value: Complex64,
+    /// Unwrapped angle of the ray.
+    pub angle: f64,
+    /// Sign of its impact.
+    pub sense: f64,
+}
+
+impl Prefactor {
+    /// For the rays from one launch point to another nearby, without a fold between.
+    pub(super) fn between(arc: &Arc, [from, to]: [f64; 2], size_parameter: f64) -> Option<Self> {
+        let (first, ahead) = (arc.ray_at(from)?, arc.ray_at(to)?);
+        let impact = |node: &Node| node.exit.reference.dot(arc.meridian().frame(node.angle).1);
+        let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
+        let focal_lines = f64::from(first.exit.focal_lines);
+        let phase = -FRAC_PI_2 * (1.0 + focal_lines) - FRAC_PI_4 * turn;
+        let value = Complex64::from_polar((size_parameter / TAU).sqrt(), phase);
+        Some(Self { value, angle: first.angle, sense: impact(&first).signum() })
+    }
+
+    /// The factor of waves that leave in another direction.
+    pub(super) fn towards(&self, angle: f64) -> Complex64 {
+        self.after((angle / PI).floor() - (self.angle / PI).floor())
+    }
+
+    /// The factor at the axis `number · π`, half-way through its focal line.
+    pub(super) fn at_axis(&self, number: f64) -> Complex64 {
+        self.after(number - 0.5 - (self.angle / PI).floor())
+    }
+
+    fn after(&self, crossings: f64) -> Complex64 {
+        self.value * Complex64::cis(FRAC_PI_2 * crossings * self.sense)
+    }
+}
+
 impl Rays {
     /// The anchor for a launch point. It varies smoothly with azimuth, also where no real ray leaves.
     pub(super) fn anchor(&self, sin: f64) -> Anchor {
@@ -56,11 +93,16 @@ impl Rays {
     }
 
     /// Trace real rays from the start of the taper to the last that leaves.
-    pub(super) fn through(arc: &Arc, layout: &RimLayout) -> Option<Self> {
+    pub(super) fn to_rim(arc: &Arc, layout: &RimLayout) -> Option<Self> {
+        let to = arc.last_ray().alpha.sin() - layout.spare * (1.0 - layout.start);
+        Self::between(arc, [layout.start, to], layout.degree)
+    }
+
+    /// Trace real rays between two launch points.
+    pub(super) fn between(arc: &Arc, [from, to]: [f64; 2], degree: usize) -> Option<Self> {
         let meridian = arc.meridian();
         let order = meridian.order as usize;
-        let to = arc.last_ray().alpha.sin() - layout.spare * (1.0 - layout.start);
-        let points = chebyshev::points(RAYS, layout.start, to);
+        let points = chebyshev::points(RAYS, from, to);
         let mut meetings: Vec<Meeting> = Vec::new();
         let mut rows = Vec::with_capacity(RAYS);
         for sin in points {
@@ -79,12 +121,12 @@ impl Rays {
         let channels = (0..rows[0].len())
             .map(|c| {
                 let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
-                let mut series = Chebyshev::fit(&values, layout.start, to);
-                series.truncate(layout.degree);
+                let mut series = Chebyshev::fit(&values, from, to);
+                series.truncate(degree);
                 series
             })
             .collect();
-        Some(Self { channels, order, from: layout.start, to })
+        Some(Self { channels, order, from, to })
     }
 
     fn at(&self, channel: usize, sin: f64) -> (f64, f64) {
@@ -92,25 +134,29 @@ impl Rays {
         (value, slope)
     }
 
-    /// The integrand on an even grid of launch points, up to where tunnelling ends.
+    /// The launch point beyond the rim up to which waves tunnel.
+    pub(super) fn end_of_tunnel(&self, index: Complex64, x: f64) -> f64 {
+        (self.last_real() + TUNNEL * x.powf(-2.0 / 3.0)).min(0.98 * index.re)
+    }
+
+    /// The integrand on an even grid of launch points up to `end`, fine enough for directions that
+    /// differ from that of a ray by `spread` radians.
     pub(super) fn integrand(
         &self,
-        layout: &RimLayout,
+        weight: impl Fn(f64) -> f64,
+        end: f64,
+        spread: f64,
         index: Complex64,
         x: f64,
-        length: f64,
     ) -> Option<Integrand> {
-        let edge = self.last_real();
-        let end = (edge + TUNNEL * x.powf(-2.0 / 3.0)).min(0.98 * index.re);
-        // the phase turns by x (ϑ(β) - ϑ) per impact; ϑ(β) strays beyond the knots by this at most
-        const STRAY: f64 = 0.5;
-        let count = ((end - self.from) * x * (length + STRAY) * SAMPLES_PER_PERIOD / TAU).ceil();
+        // the phase turns by x (ϑ(β) - ϑ) per impact
+        let count = ((end - self.from) * x * spread * SAMPLES_PER_PERIOD / TAU).ceil();
         let step = (end - self.from) / count;
         let count = count as usize;
         let mut integrand = Integrand::with_capacity(count);
         for k in 1..count {
             let sin = self.from + k as f64 * step;
-            let weight = layout.weight(sin) * step;
+            let weight = weight(sin) * step;
             let matrix = self.transfer(sin, index, x)?;
             let (spreading, _) = self.at(SPREADING, sin);
             let (impact, rate) = self.at(IMPACT, sin);
