@@ -107,8 +107,10 @@ pub struct Slab {
     pub sum_before_peak: f64,
     /// Share of the scattered power that is in the separated peak (`ForwardPeak::Separate`).
     pub peak_share: f64,
-    /// Estimated relative error (method's own estimate).
+    /// The method's own estimate of the relative error of the intensity: weighted by intensity.
     pub error_estimate: f64,
+    /// The same, root mean square over bands of a few degrees, each relative to its own intensity.
+    pub error_by_band: f64,
 }
 
 /// A whole table in memory.

@@ -4,10 +4,10 @@
 //! the far field, every azimuth of the table becomes a column of amplitudes, and the columns become
 //! a [`Slab`], which is handed on before the next wavelength is computed.
 
-use crate::farfield::FarField;
 use crate::farfield::fan::FanSettings;
 use crate::farfield::patch;
 use crate::farfield::tabulate::{Tabulator, Values};
+use crate::farfield::{ErrorEstimate, FarField};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
@@ -114,6 +114,9 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
+    let error_estimate = far_field
+        .error_estimate(&tracer(plan, index, size_parameter), budget.truncated)
+        .unwrap_or(ErrorEstimate { weighted: scene.tolerance, by_band: scene.tolerance });
     Ok(Slab {
         wavelength,
         index,
@@ -125,7 +128,8 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         energy: Some(budget),
         sum_before_peak,
         peak_share,
-        error_estimate: scene.tolerance,
+        error_estimate: error_estimate.weighted,
+        error_by_band: error_estimate.by_band,
     })
 }
 
@@ -259,8 +263,7 @@ fn far_field<'a>(
     azimuths: &[f64],
     diffraction: bool,
 ) -> FarField<'a> {
-    let last = plan.orders.iter().copied().max().unwrap_or(0);
-    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
+    let tracer = tracer(plan, index, size_parameter);
     if plan.engine == Engine::Meridians {
         let (azimuths, _) = plan.computed_azimuths(azimuths);
         let settings = FanSettings {
@@ -270,11 +273,20 @@ fn far_field<'a>(
             diffraction,
             azimuths: &azimuths,
         };
-        let tracer = tracer.with_curved_interface(size_parameter);
         return FarField::meridians(&tracer, &settings);
     }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
     FarField::patches(&plan.shape, patch::sheets(&tracer, &wavefront, &plan.orders), size_parameter)
+}
+
+/// What traces a plan's rays.
+fn tracer<'a>(plan: &'a Plan, index: Complex64, size_parameter: f64) -> Tracer<'a> {
+    let last = plan.orders.iter().copied().max().unwrap_or(0);
+    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
+    if plan.engine == Engine::Meridians {
+        return tracer.with_curved_interface(size_parameter);
+    }
+    tracer
 }
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.

@@ -90,6 +90,7 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "smallest_per_sr": least,
             "largest_per_sr": most,
             "error_estimate": number(slab.error_estimate),
+            "error_estimate_by_band": number(slab.error_by_band),
             "samples_beyond_two_rays": slab
                 .caustic_order
                 .as_ref()

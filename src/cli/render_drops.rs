@@ -201,6 +201,7 @@ fn slab(
         sum_before_peak: f64::NAN,
         peak_share: 0.0,
         error_estimate: 1e-10,
+        error_by_band: 1e-10,
     }
 }
 

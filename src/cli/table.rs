@@ -46,8 +46,9 @@ pub struct TableArgs {
 #[derive(Default)]
 struct Summary {
     seconds: f64,
-    /// Largest over the wavelengths.
+    /// Largest over the wavelengths, both.
     error_estimate: f64,
+    error_by_band: f64,
     /// Largest over the wavelengths; `None` where the method has no energy budget.
     energy_residual: Option<f64>,
 }
@@ -110,6 +111,7 @@ fn tabulate(scene: &Scene, args: &TableArgs) -> anyhow::Result<(Summary, Thinned
 impl Summary {
     fn add(&mut self, slab: &Slab) {
         self.error_estimate = self.error_estimate.max(slab.error_estimate);
+        self.error_by_band = self.error_by_band.max(slab.error_by_band);
         if let Some(energy) = &slab.energy {
             let residual = self.energy_residual.unwrap_or(0.0).max(energy.residual.abs());
             self.energy_residual = Some(residual);
@@ -131,6 +133,7 @@ fn report(
             "bytes": bytes,
             "seconds": summary.seconds,
             "error_estimate": summary.error_estimate,
+            "error_estimate_by_band": summary.error_by_band,
             "energy_residual": summary.energy_residual,
         });
         println!("{report}");
@@ -147,10 +150,12 @@ fn report(
         println!("{}: picture", preview.display());
     }
     println!(
-        "computed in {:.1} s on {} threads; estimated relative error {:.1e}",
+        "computed in {:.1} s on {} threads; estimated relative error {:.1e} weighted by intensity, \
+         {:.1e} on average over angles",
         summary.seconds,
         rayon::current_num_threads(),
-        summary.error_estimate
+        summary.error_estimate,
+        summary.error_by_band
     );
     if let Some(residual) = summary.energy_residual {
         println!("energy that the rays lost count of: {residual:.1e} of what came in");

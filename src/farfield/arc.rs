@@ -5,9 +5,9 @@
 //! combinations, on the lit and on the dark side. Knots sit at the same fractions of a segment on
 //! every meridian, so that all their data vary smoothly with azimuth too.
 
+use super::axis_wave::AxisWave;
 use super::fold::{Fold, PAIR_CHANNELS};
 use super::meridian::{GRAZING, Meridian, Node};
-use super::axis_wave::AxisWave;
 use super::rim::{RimLayout, RimWave};
 use super::segment::{
     CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
@@ -36,6 +36,18 @@ pub struct ArcLayout {
     pub rim: Option<RimLayout>,
     /// Where the edge wave takes over from reflected rays, by the cosine of the grazing angle.
     pub edge: Option<Taper>,
+}
+
+impl ArcLayout {
+    /// The same with twice the knots.
+    pub(super) fn finer(&self) -> Self {
+        Self {
+            density: 2.0 * self.density,
+            knots: self.knots.iter().map(|count| 2 * count).collect(),
+            rim: self.rim.as_ref().map(RimLayout::finer),
+            ..self.clone()
+        }
+    }
 }
 
 /// Landmarks along a meridian.

@@ -41,7 +41,8 @@ impl AxisWave {
         let forward = number % 2 == 0;
         let factor = before.at_axis(number as f64) * x;
         let ring = |(impact, path, [perpendicular, parallel]): (f64, f64, [Complex64; 2])| {
-            let wave = Complex64::cis(TAU * (x / TAU * (path - impact * PI * number as f64)).fract());
+            let wave =
+                Complex64::cis(TAU * (x / TAU * (path - impact * PI * number as f64)).fract());
             let rate = x * impact.abs();
             let size = factor * wave * (TAU * rate).sqrt();
             let across = if forward { 1.0 } else { -1.0 };
@@ -68,13 +69,13 @@ impl AxisWave {
         let from = inner - taper.min(0.9 * (inner - limits[0]));
         let to = outer + taper.min(0.9 * (limits[1] - outer));
         let rays = Rays::between(arc, [from, to], RAYS - 1)?;
-        let [rise, fall] =
-            [Taper { start: from, full: inner }, Taper { start: outer, full: to }];
+        let [rise, fall] = [Taper { start: from, full: inner }, Taper { start: outer, full: to }];
         let weight = |sin: f64| rise.weight(sin) * (1.0 - fall.weight(sin)) * share(sin);
         let axis = PI * number as f64;
         let off = |sin: f64| Some((arc.ray_at(sin)?.angle - axis).abs());
         let spread = off(from)?.max(off(to)?) + reach;
-        let integrand = rays.integrand(weight, to, 1.5 * spread, arc.meridian().tracer.index(), x)?;
+        let integrand =
+            rays.integrand(weight, to, 1.5 * spread, arc.meridian().tracer.index(), x)?;
         let before = Prefactor::between(arc, [inner, inner + 0.01 * (outer - inner)], x)?;
         Some(Self::new(&integrand, &before, number, reach, x))
     }

@@ -3,7 +3,7 @@
 
 use super::arc::{Arc, ArcLayout};
 use super::axis_wave::AxisWave;
-use super::meridian::{Meridian, Node};
+use super::meridian::{Meridian, Node, axial_ray};
 use super::segment::{Kind, Knot, Segment};
 use crate::trace::Tracer;
 use rayon::prelude::*;
@@ -19,6 +19,8 @@ const LONGEST_DARK: f64 = 0.45;
 /// What is traced of an order.
 pub(super) struct Traced {
     pub meridians: Vec<Vec<Segment>>,
+    /// How they were cut.
+    pub layout: ArcLayout,
     /// Waves about the axis, in rotationally symmetric scenes.
     pub about_axis: Vec<AxisWave>,
 }
@@ -54,10 +56,11 @@ pub(super) fn trace(
     }
     let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
     for _ in 0..shrinks {
-        if let Some(meridians) = cut(&arcs, &layout) {
+        if let Some((meridians, layout)) = cut(&arcs, &layout) {
             let symmetric = tracer.shape().rotational_symmetry();
-            let about_axis = if symmetric { found.first()?.axis_waves(&layout) } else { Vec::new() };
-            return Some(Traced { meridians, about_axis });
+            let about_axis =
+                if symmetric { found.first()?.axis_waves(&layout) } else { Vec::new() };
+            return Some(Traced { meridians, layout, about_axis });
         }
         layout.folds.iter_mut().for_each(|(dark, reach)| {
             *dark *= 0.6;
@@ -93,7 +96,7 @@ fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, 
 }
 
 /// All segments of all meridians, with common numbers of knots.
-fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
+fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, ArcLayout)> {
     type Ends = Vec<[Node; 2]>;
     let ends: Vec<Option<Ends>> =
         arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect();
@@ -108,7 +111,21 @@ fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<Vec<Vec<Segment>>> {
     let cut: Vec<Option<Vec<Segment>>> = arcs.par_iter().zip(&ends).map(segments).collect();
     let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
     let same_kind = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(template.iter().copied());
-    fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())
+    let filled = fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())?;
+    Some((filled, layout))
+}
+
+/// One more meridian, cut like those of a layout.
+pub(super) fn another(
+    tracer: &Tracer,
+    order: u32,
+    azimuth: f64,
+    layout: &ArcLayout,
+) -> Option<Vec<Segment>> {
+    let silhouette = tracer.shape().silhouette().tabulated();
+    let centre = axial_ray(tracer, order);
+    let arc = Arc::new(Meridian::new(tracer, order, azimuth, centre), &silhouette, layout)?;
+    arc.segments(layout, &arc.ends(layout)?)
 }
 
 /// Fill meridians that were not found from the nearest on both sides. `None` when too many or an

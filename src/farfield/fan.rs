@@ -8,7 +8,7 @@
 
 use super::arc::ArcLayout;
 use super::axis_wave::AxisWave;
-use super::corresponding::{Traced, trace};
+use super::corresponding::{Traced, another, trace};
 use super::edge::EdgeWave;
 use super::forward_diffraction::ForwardDiffraction;
 use super::meridian::axial_ray;
@@ -35,8 +35,11 @@ pub struct Fan {
 }
 
 /// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
-struct OrderFan {
+pub(super) struct OrderFan {
+    order: u32,
     meridians: Vec<Vec<Segment>>,
+    /// How the meridians were cut.
+    layout: ArcLayout,
     /// Lowest and highest angle of each segment over all meridians, with some room.
     spans: Vec<(f64, f64)>,
     /// Waves about the axis, where nothing depends on azimuth.
@@ -72,6 +75,9 @@ pub struct FanSettings<'a> {
 /// pairs, and for those with rim waves, whose phases change faster.
 const HALF_TURN_STEPS: usize = 40;
 const HALF_TURN_STEPS_RIM: usize = 60;
+/// Where interpolation over azimuth is checked: off the even steps by nearly half of one, for both
+/// numbers of steps.
+const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
 /// Neighbours in the interpolation over azimuth.
 const STENCIL: usize = 8;
 /// Order times deformation from which meridians no longer correspond across the axis.
@@ -154,6 +160,38 @@ impl Fan {
         columns
     }
 
+    /// An azimuth as far as can be from those traced.
+    pub(super) fn between(&self) -> f64 {
+        match self.orders.iter().max_by_key(|fan| fan.meridians.len()).map(|fan| &fan.azimuths) {
+            Some(Azimuths::Even) => CHECKED_AZIMUTH,
+            Some(Azimuths::Listed(list)) => list[list.len() / 2],
+            _ => 0.0,
+        }
+    }
+
+    /// For every order, amplitudes of its rays on the near side of an azimuth's plane: interpolated,
+    /// and traced there with twice the knots.
+    pub(super) fn checks(
+        &self,
+        tracer: &Tracer,
+        theta: &[f64],
+        azimuth: f64,
+    ) -> Vec<[Vec<AmplitudeMatrix>; 2]> {
+        let samples = Samples::new(theta);
+        let check = |fan: &OrderFan| {
+            let traced = another(tracer, fan.order, azimuth, &fan.layout.finer())?;
+            let mut sums = [Sums::new(&samples), Sums::new(&samples)];
+            for (number, segment) in traced.iter().enumerate() {
+                let interpolated = fan.segment(number, azimuth);
+                for (sums, segment) in sums.iter_mut().zip([interpolated.as_ref(), segment]) {
+                    add_segment(sums, &samples, segment, Side::Near, self.size_parameter);
+                }
+            }
+            Some(sums.map(|sums| sums.amplitudes()))
+        };
+        self.orders.par_iter().filter_map(check).collect()
+    }
+
     /// How many rays more than two may coalesce near each sample: 3 within an axis gap, else 0.
     pub fn caustic_order(&self, theta: &[f64]) -> Vec<u8> {
         let gap = |axis: f64| {
@@ -205,13 +243,14 @@ impl OrderFan {
                 rim,
                 edge: edge.map(EdgeWave::taper),
             };
-            let Traced { mut meridians, about_axis } =
-                trace(tracer, order, centre, &places, layout, tangle)?;
+            let traced = trace(tracer, order, centre, &places, layout, tangle)?;
+            let Traced { mut meridians, layout, about_axis } = traced;
             for (segments, &azimuth) in meridians.iter_mut().zip(&places) {
                 segments.extend(edge.iter().flat_map(|edge| edge.segments(azimuth)));
             }
             let spans = spans(&meridians);
-            Some(Self { meridians, spans, about_axis, axis_gap, azimuths: azimuths.clone() })
+            let azimuths = azimuths.clone();
+            Some(Self { order, meridians, layout, spans, about_axis, axis_gap, azimuths })
         })
     }
 

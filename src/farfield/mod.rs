@@ -16,6 +16,7 @@ pub mod direction;
 pub mod edge;
 mod edge_layout;
 mod edge_profile;
+mod error_estimate;
 pub mod fan;
 pub mod fold;
 pub mod forward_diffraction;
@@ -36,6 +37,7 @@ mod taper;
 
 pub use collecting_sphere::CollectingSphere;
 pub use direction::Direction;
+pub use error_estimate::ErrorEstimate;
 
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;

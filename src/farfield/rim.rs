@@ -148,6 +148,21 @@ impl RimLayout {
         Self { start, full, bow, knots: Vec::new(), degree, spare, rotational }
     }
 
+    /// The same with twice the knots.
+    pub(super) fn finer(&self) -> Self {
+        let twice = |run: &Vec<[f64; 2]>| {
+            let mut finer: Vec<[f64; 2]> = Vec::with_capacity(2 * run.len());
+            for &[angle, slope] in run {
+                if let Some(&[a, s]) = finer.last() {
+                    finer.push([0.5 * (a + angle), 0.5 * (s + slope)]);
+                }
+                finer.push([angle, slope]);
+            }
+            finer
+        };
+        Self { knots: self.knots.iter().map(twice).collect(), ..self.clone() }
+    }
+
     /// Weight of the integral for a launch point `sin α`.
     pub fn weight(&self, sin: f64) -> f64 {
         Taper { start: self.start, full: self.full }.weight(sin)

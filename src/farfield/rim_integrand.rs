@@ -34,7 +34,8 @@ impl Integrand {
 
     /// Impact, path, and the elements S1 and S2 of all samples.
     pub(super) fn samples(&self) -> impl Iterator<Item = (f64, f64, [Complex64; 2])> {
-        let element = |e: usize, k: usize| Complex64::new(self.parts[2 * e][k], self.parts[2 * e + 1][k]);
+        let element =
+            |e: usize, k: usize| Complex64::new(self.parts[2 * e][k], self.parts[2 * e + 1][k]);
         (0..self.impact.len())
             .map(move |k| (self.impact[k], self.path[k], [element(0, k), element(1, k)]))
     }

@@ -21,7 +21,8 @@
 //! | `refractive_index_real`, `refractive_index_imag` | wavelength_nm | 1 | n + ik, k ≥ 0 absorbs |
 //! | `sum_before_peak` | wavelength_nm | 1 | Σ phase_function · solid_angle before the forward peak was treated |
 //! | `peak_share` | wavelength_nm | 1 | share of the scattered power in the separated peak |
-//! | `error_estimate` | wavelength_nm | 1 | the method's own estimate of its relative error |
+//! | `error_estimate` | wavelength_nm | 1 | estimated relative error of the intensity, weighted by intensity, 10° to 170° |
+//! | `error_estimate_by_band` | wavelength_nm | 1 | the same, root mean square over bands of 4°, each relative to its own intensity |
 //! | `energy_left_by_order` | wavelength_nm, order | 1 | power that left after that many chords, per power on the silhouette |
 //! | `energy_absorbed`, `energy_totally_reflected`, `energy_truncated`, `energy_residual` | wavelength_nm | 1 | the rest of the budget; NaN where a wavelength has none |
 //! | `radius_um` | | um | radius of the sphere of equal volume |

@@ -130,6 +130,7 @@ pub(super) fn slab_at(
         sum_before_peak: record.sum_before_peak,
         peak_share: record.peak_share,
         error_estimate: record.error_estimate,
+        error_by_band: record.error_by_band,
     })
 }
 
@@ -261,9 +262,15 @@ pub(super) fn read_records(
     };
     let length = wavelengths as u64;
     let plain = PLAIN.map(|(name, ..)| line(name, length, None));
-    let [scattering, extinction, asymmetry, real, imag, sum, share, error] = plain;
+    let [scattering, extinction, asymmetry, real, imag, sum, share, error, by_band] = plain;
     let (scattering, extinction, asymmetry) = (scattering?, extinction?, asymmetry?);
-    let (real, imag, sum, share, error) = (real?, imag?, sum?, share?, error?);
+    let (real, imag, sum, share) = (real?, imag?, sum?, share?);
+    let error = error?;
+    // tables of older versions have none
+    let by_band = match file.dataset("error_estimate_by_band")? {
+        Some(_) => by_band?,
+        None => vec![f64::NAN; wavelengths],
+    };
 
     let energy = if file.dataset("energy_absorbed")?.is_some() {
         let [absorbed, reflected, truncated, residual] =
@@ -300,6 +307,7 @@ pub(super) fn read_records(
         sum_before_peak: sum[i],
         peak_share: share[i],
         error_estimate: error[i],
+        error_by_band: by_band[i],
         energy,
     };
     Ok(energy.into_iter().enumerate().map(record).collect())

@@ -18,6 +18,7 @@ pub(super) struct Record {
     pub sum_before_peak: f64,
     pub peak_share: f64,
     pub error_estimate: f64,
+    pub error_by_band: f64,
     pub energy: Option<EnergyBudget>,
 }
 
@@ -31,6 +32,7 @@ impl From<&Slab> for Record {
             sum_before_peak: slab.sum_before_peak,
             peak_share: slab.peak_share,
             error_estimate: slab.error_estimate,
+            error_by_band: slab.error_by_band,
             energy: slab.energy.clone(),
         }
     }
@@ -39,7 +41,7 @@ impl From<&Slab> for Record {
 type Getter<T> = fn(&T) -> f64;
 
 /// Variables that every slab has: name, units, words, value.
-pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
+pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 9] = [
     ("scattering_cross_section", "m2", "scattering cross-section", |r| r.scattering_cross_section),
     ("extinction_cross_section", "m2", "extinction cross-section", |r| r.extinction_cross_section),
     ("asymmetry", "1", "mean cosine of the scattering angle", |r| r.asymmetry),
@@ -54,9 +56,18 @@ pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
     ("peak_share", "1", "share of the scattered power in the separated forward peak", |r| {
         r.peak_share
     }),
-    ("error_estimate", "1", "the method's own estimate of its relative error", |r| {
-        r.error_estimate
-    }),
+    (
+        "error_estimate",
+        "1",
+        "estimated relative error of the intensity, weighted by intensity, 10 to 170 degrees",
+        |r| r.error_estimate,
+    ),
+    (
+        "error_estimate_by_band",
+        "1",
+        "the same, root mean square over bands of 4 degrees relative to their own intensity",
+        |r| r.error_by_band,
+    ),
 ];
 
 /// Variables of the energy budget beside the orders.

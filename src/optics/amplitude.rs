@@ -1,7 +1,7 @@
 //! The amplitude scattering matrix of one direction, and the Mueller matrix that follows from it.
 
 use num_complex::Complex64;
-use std::ops::{Add, AddAssign, Mul};
+use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// Amplitude scattering matrix `[[S2, S3], [S4, S1]]` (Bohren & Huffman 1983, eq. 3.12),
 /// dimensionless, absolute phase relative to a wave through the particle's centre.
@@ -62,6 +62,14 @@ impl Add for AmplitudeMatrix {
     type Output = Self;
     fn add(self, o: Self) -> Self {
         Self { s1: self.s1 + o.s1, s2: self.s2 + o.s2, s3: self.s3 + o.s3, s4: self.s4 + o.s4 }
+    }
+}
+
+impl Sub for AmplitudeMatrix {
+    type Output = Self;
+
+    fn sub(self, o: Self) -> Self {
+        Self { s1: self.s1 - o.s1, s2: self.s2 - o.s2, s3: self.s3 - o.s3, s4: self.s4 - o.s4 }
     }
 }
 

@@ -124,6 +124,7 @@ pub fn sphere_slab(
         sum_before_peak,
         peak_share: 0.0,
         error_estimate: curves.error,
+        error_by_band: curves.error,
     })
 }
 

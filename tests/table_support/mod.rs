@@ -77,6 +77,7 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         sum_before_peak: 0.97,
         peak_share: 0.5,
         error_estimate: 0.01,
+        error_by_band: 0.05,
     }
 }
 
@@ -125,6 +126,7 @@ pub fn mie_table(
             sum_before_peak: 1.0,
             peak_share: 0.0,
             error_estimate: 0.0,
+            error_by_band: 0.0,
         }
     });
     let slabs = slabs.collect();

@@ -97,6 +97,7 @@ fn slab(
         sum_before_peak: 1.0,
         peak_share: 0.0,
         error_estimate: 0.0,
+        error_by_band: 0.0,
     }
 }
 
