@@ -23,9 +23,20 @@ fn rays(
     diffraction: bool,
     theta: &[f64],
 ) -> Vec<AmplitudeMatrix> {
-    let shape = Shape::sphere();
+    rays_of(&Shape::sphere(), x, m, orders, diffraction, theta)
+}
+
+/// The same on any particle.
+fn rays_of(
+    shape: &Shape,
+    x: f64,
+    m: Complex64,
+    orders: &[u32],
+    diffraction: bool,
+    theta: &[f64],
+) -> Vec<AmplitudeMatrix> {
     let last = orders.iter().copied().max().unwrap();
-    let tracer = Tracer::new(&shape, m, x, last).with_curved_interface(x);
+    let tracer = Tracer::new(shape, m, x, last).with_curved_interface(x);
     let settings =
         FanSettings { size_parameter: x, orders, tolerance: 0.01, diffraction, azimuths: &[0.4] };
     let far_field = FarField::meridians(&tracer, &settings);
@@ -43,9 +54,21 @@ fn l2(found: impl Iterator<Item = Complex64>, exact: impl Iterator<Item = Comple
     (error / norm).sqrt()
 }
 
+/// Relative errors of S1 and S2.
+fn errors(found: &[AmplitudeMatrix], exact: &[(Complex64, Complex64)]) -> [f64; 2] {
+    [
+        l2(found.iter().map(|s| s.s1), exact.iter().map(|e| e.0)),
+        l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1)),
+    ]
+}
+
+/// On a sphere orders from 2 on are integrals over impacts near the rim; a spheroid that is all but a
+/// sphere has plain rays and pairs of rays up to order 3.
 #[test]
 fn one_order_against_its_debye_term() {
     let m = Complex64::new(1.333, 0.0);
+    let all_but_a_sphere = Shape::spheroid(1.0 - 1e-7, 0.5).unwrap();
+    assert!(!all_but_a_sphere.rotational_symmetry());
     let cases = [
         (2u32, 5000.0, 135.5, 150.0, 0.008, 0.016),
         (2, 1000.0, 134.0, 146.0, 0.025, 0.05),
@@ -54,12 +77,50 @@ fn one_order_against_its_debye_term() {
     ];
     for (p, x, from, to, bound1, bound2) in cases {
         let theta = angles(from, to, 0.02);
-        let found = rays(x, m, &[p], false, &theta);
         let exact = DebyeSeries::new(x, m).unwrap().amplitudes(Term::Order(p), &theta);
-        let s1 = l2(found.iter().map(|s| s.s1), exact.iter().map(|e| e.0));
-        let s2 = l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1));
-        println!("p = {p}, x = {x}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %", 100.0 * s1, 100.0 * s2);
-        assert!(s1 <= bound1 && s2 <= bound2, "p = {p}, x = {x}: S1 {s1}, S2 {s2}");
+        for (name, shape) in [("sphere", &Shape::sphere()), ("pairs", &all_but_a_sphere)] {
+            let found = rays_of(shape, x, m, &[p], false, &theta);
+            let [s1, s2] = errors(&found, &exact);
+            println!(
+                "{name}: p = {p}, x = {x}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %",
+                100.0 * s1,
+                100.0 * s2
+            );
+            assert!(s1 <= bound1 && s2 <= bound2, "{name}: p = {p}, x = {x}: S1 {s1}, S2 {s2}");
+        }
+    }
+}
+
+/// About the axis, where rays of all azimuths meet: the glory of single orders, also the strong ones
+/// whose bow lies there (11 and 24 for water), the rays that creep along the surface (order 2), and
+/// rays that cross the axis.
+#[test]
+fn about_the_axis_against_debye_terms() {
+    let cases = [
+        (2u32, 5000.0, 1.3314, 160.0, 180.0, 0.003),
+        (2, 1000.0, 1.3314, 160.0, 180.0, 0.02),
+        (5, 5000.0, 1.3314, 160.0, 180.0, 0.015),
+        (6, 5000.0, 1.3314, 160.0, 180.0, 0.012),
+        (11, 5000.0, 1.3314, 160.0, 180.0, 0.01),
+        (24, 5000.0, 1.3314, 160.0, 180.0, 0.015),
+        (4, 5000.0, 1.3314, 0.0, 20.0, 0.01),
+        (9, 5000.0, 1.3314, 0.0, 20.0, 0.005),
+        (2, 2000.0, 1.7, 160.0, 180.0, 0.025),
+        (5, 2000.0, 1.7, 160.0, 180.0, 0.015),
+        (11, 1000.0, 1.3314, 160.0, 180.0, 0.04),
+        (11, 50000.0, 1.3314, 178.0, 180.0, 0.01),
+    ];
+    for (p, x, index, from, to, bound) in cases {
+        let m = Complex64::new(index, 0.0);
+        let theta = angles(from, to, 0.02);
+        let exact = DebyeSeries::new(x, m).unwrap().sum_parallel(&[Term::Order(p)], &theta);
+        let [s1, s2] = errors(&rays(x, m, &[p], false, &theta), &exact);
+        println!(
+            "p = {p}, x = {x}, n = {index}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %",
+            100.0 * s1,
+            100.0 * s2
+        );
+        assert!(s1 <= bound && s2 <= bound, "p = {p}, x = {x}, {from}–{to}: S1 {s1}, S2 {s2}");
     }
 }
 
@@ -86,8 +147,7 @@ fn edge_wave_against_the_debye_series() {
         let found = rays(x, m, &[0], true, &theta);
         let terms = [Term::Order(0), Term::Diffraction];
         let exact = DebyeSeries::new(x, m).unwrap().sum_parallel(&terms, &theta);
-        let s1 = l2(found.iter().map(|s| s.s1), exact.iter().map(|e| e.0));
-        let s2 = l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1));
+        let [s1, s2] = errors(&found, &exact);
         println!(
             "x = {x}, n = {index}, {from}–{to}°: S1 {:.3} %, S2 {:.3} %",
             100.0 * s1,

@@ -379,14 +379,10 @@ impl<'a> Arc<'a> {
     fn at_angle(&self, angle: f64, near: f64, is_start: bool) -> Option<Node> {
         let nodes = &self.nodes;
         let window = |w: &[Node]| (w[0].angle - angle) * (w[1].angle - angle) <= 0.0;
-        let slack = 1.5 * FRAC_PI_2 / nodes.len() as f64;
         let bracket = if is_start {
-            nodes.windows(2).find(|w| w[1].alpha >= near - slack && window(w) && w[1].alpha > near)
+            nodes.windows(2).find(|w| w[1].alpha >= near && window(w))
         } else {
-            nodes
-                .windows(2)
-                .rev()
-                .find(|w| w[0].alpha <= near + slack && window(w) && w[0].alpha < near)
+            nodes.windows(2).rev().find(|w| w[0].alpha <= near && window(w))
         };
         let (mut a, mut b) = match bracket {
             Some(w) => (w[0], w[1]),
