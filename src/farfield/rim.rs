@@ -53,7 +53,7 @@ const FIRST_ORDER_DEFORMED: u32 = 4;
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
 /// served is ten times as strong as the others.
-const FRESNEL_ZONES: f64 = 14.0;
+const FRESNEL_ZONES: f64 = 20.0;
 const FRESNEL_ZONES_HIGH: f64 = 10.0;
 /// Knots per period of the wave against its reference.
 const KNOTS_PER_PERIOD: f64 = 4.0;
@@ -106,7 +106,7 @@ pub fn taper(
         return None;
     }
     let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
-    let zones = if order <= FIRST_ORDER { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
+    let zones = if order <= 3 { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
     let mut start = (full - zones * zone(full)).max(0.5 * full);
     if !rotational {
         start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
