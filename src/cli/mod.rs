@@ -14,7 +14,6 @@ mod plan;
 mod plot;
 mod progress;
 mod rays;
-mod rays_drawing;
 mod render;
 mod render_drops;
 mod scatter;

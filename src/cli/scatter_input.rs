@@ -1,9 +1,28 @@
-//! Words of `gonio scatter`: indices, angles and orders.
+//! Words of `gonio scatter` and `gonio rays`: shapes, indices, angles and orders.
 
+use super::UsageError;
+use clap::ValueEnum;
+use gonio::shape::RaindropModel;
 use num_complex::Complex64;
 
 /// Most angles accepted; more is surely a slip of the step.
 const MOST_ANGLES: f64 = 1e7;
+
+/// What the particle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShapeKind {
+    Sphere,
+    Raindrop,
+    Spheroid,
+}
+
+/// The raindrop model of a name.
+pub fn raindrop_model(name: &str) -> Result<RaindropModel, UsageError> {
+    let models = [RaindropModel::BeardChuang1987, RaindropModel::ChuangBeard1990];
+    models.into_iter().find(|model| model.name() == name).ok_or_else(|| {
+        UsageError(format!("--model {name}: beard-chuang-1987 and chuang-beard-1990 are accepted"))
+    })
+}
 
 /// An index given on the command line.
 #[derive(Clone, Copy, Debug)]
