@@ -202,7 +202,7 @@ fn merge(args: &MergeArgs) -> anyhow::Result<()> {
     if args.place.json {
         println!("{}", json!({ "file": output, "tables": plan.tables.len(), "bytes": bytes }));
     } else {
-        let size = gonio::hdf5::human_bytes(bytes);
+        let size = gonio::hdf5::decimal_bytes(bytes);
         println!("{}: {} tables, {size}", output.display(), plan.tables.len());
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use super::UsageError;
 use clap::Args;
-use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, human_bytes};
+use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, decimal_bytes};
 use gonio::phase_table::{Quantity, TableHeader};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -157,7 +157,7 @@ fn print_object(object: &Value, indent: usize) {
             }
             Value::String(text) => println!("{space}{key}: {text}"),
             Value::Number(bytes) if key == "bytes" => {
-                println!("{space}size: {}", human_bytes(bytes.as_u64().unwrap_or(0)));
+                println!("{space}size: {}", decimal_bytes(bytes.as_u64().unwrap_or(0)));
             }
             other => println!("{space}{key}: {other}"),
         }

@@ -1,12 +1,11 @@
 //! Reading a table, whole or wavelength by wavelength.
 
-use super::TableError;
-use super::raw_read::{OpenFile, damaged, foreign};
+use super::raw_read::{OpenDataset, OpenFile};
 use super::record::{ENERGY, PLAIN, Record};
 use super::schema::{
     ELEMENTS, FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name,
 };
-use super::writer::invalid;
+use super::{TableError, damaged, foreign, invalid};
 use crate::phase_table::{
     Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
 };
@@ -181,7 +180,11 @@ pub(super) fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
         .ok_or_else(|| unknown("forward_peak", &peak_text))?;
 
     let axes = Axes {
-        wavelength: read_line(file, "wavelength_nm")?.iter().map(|nm| nm * 1e-9).collect(),
+        wavelength: coordinate(file, "wavelength_nm")?
+            .read::<f64>()?
+            .iter()
+            .map(|nm| nm * 1e-9)
+            .collect(),
         theta: read_angles(file, "theta")?,
         phi: read_angles(file, "phi")?,
     };
@@ -199,19 +202,19 @@ pub(super) fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
     })
 }
 
-/// A coordinate variable.
-pub(super) fn read_line(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
+/// A coordinate variable, not read yet.
+pub(super) fn coordinate(file: &OpenFile, name: &str) -> Result<OpenDataset, TableError> {
     let data = file.required(name)?;
     if data.shape.len() != 1 {
         return Err(damaged(&file.path, &format!("{name} is not one-dimensional")));
     }
-    data.read::<f64>()
+    Ok(data)
 }
 
 /// Degrees to radians; 180° and 360° become π and 2π exactly.
 fn read_angles(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
     use std::f64::consts::PI;
-    Ok(read_line(file, name)?.iter().map(|degrees| degrees / 180.0 * PI).collect())
+    Ok(coordinate(file, name)?.read::<f64>()?.iter().map(|degrees| degrees / 180.0 * PI).collect())
 }
 
 /// A scalar variable; NaN where it is an axis of a sweep.
