@@ -4,7 +4,7 @@
 //! The parser delivers events, one after another; nothing here recurses into what the file holds,
 //! aliases are refused and depth is bounded, so a hostile file ends in a message.
 
-use super::table::{Column, Table, TableBuilder, Unit, file_error};
+use super::table::{Column, Table, TableBuilder, Unit, file_error, name_of};
 use super::{Formula, Material, MediumError};
 use crate::math::monotone::MonotoneCurve;
 use saphyr_parser::{Event, Parser};
@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Material, MediumError> {
 /// Reads a material from text; `path` is for messages and, without its ending, the name.
 pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
     let entries = flatten(text, path)?;
-    let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = name_of(path);
     let source = entries
         .iter()
         .find(|e| e.path == "REFERENCES")
