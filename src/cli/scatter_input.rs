@@ -2,6 +2,7 @@
 
 use super::UsageError;
 use clap::ValueEnum;
+use gonio::scene::Named;
 use gonio::shape::RaindropModel;
 use num_complex::Complex64;
 
@@ -18,9 +19,10 @@ pub enum ShapeKind {
 
 /// The raindrop model of a name.
 pub fn raindrop_model(name: &str) -> Result<RaindropModel, UsageError> {
-    let models = [RaindropModel::BeardChuang1987, RaindropModel::ChuangBeard1990];
-    models.into_iter().find(|model| model.name() == name).ok_or_else(|| {
-        UsageError(format!("--model {name}: beard-chuang-1987 and chuang-beard-1990 are accepted"))
+    let known = RaindropModel::NAMES;
+    known.iter().find(|(word, _)| *word == name).map(|(_, model)| *model).ok_or_else(|| {
+        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        UsageError(format!("--model {name}: {} are accepted", words.join(" and ")))
     })
 }
 
