@@ -181,9 +181,13 @@ fn range_values(key: &str, range: &Table) -> Result<Vec<Value>, BatchError> {
             None => from + (to - from) * t,
         }
     };
-    // The noise in the last digits of 0.1 + 0.2 does not belong into names and hashes.
-    let tidy = |value: f64| format!("{value:.12e}").parse().unwrap_or(value);
     Ok((0..=steps as usize).map(|i| Value::Float(tidy(at(i)))).collect())
+}
+
+/// A number without the noise in the last digits of 0.1 + 0.2, which does not belong into names and
+/// hashes.
+pub(super) fn tidy(value: f64) -> f64 {
+    format!("{value:.12e}").parse().unwrap_or(value)
 }
 
 /// `[sweep] zip = ["a", "b"]` or `[["a", "b"], ["c", "d"]]`.

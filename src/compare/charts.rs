@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 /// Curves of a case on the angles of the reference: all methods and polarisations; then, if there
 /// are any, the single orders.
-pub fn charts(case: &Case, report: &CaseReport) -> Vec<Value> {
+pub(super) fn charts(case: &Case, report: &CaseReport) -> Vec<Value> {
     let wavelength = report.wavelength_nm * 1e-9;
     let scaled = |table: &PhaseTable| Curve::relative_to(table, &case.reference.table, wavelength);
     let theta = scaled(&case.reference.table).theta;
@@ -55,7 +55,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// Polar view on a log scale: the reference above the axis, the first test below.
-pub fn polar(case: &Case, report: &CaseReport) -> Markup {
+pub(super) fn polar(case: &Case, report: &CaseReport) -> Markup {
     const SIZE: f64 = 460.0;
     const DECADES: f64 = 6.0;
     let wavelength = report.wavelength_nm * 1e-9;
