@@ -1,6 +1,7 @@
 //! The curves of the page: data for uPlot, and the polar view as SVG.
 
 use super::{Case, CaseReport, Curve};
+use crate::math::digits::to_digits;
 use crate::phase_table::PhaseTable;
 use maud::{Markup, html};
 use serde_json::{Value, json};
@@ -51,7 +52,7 @@ const SMALLEST: f64 = 1e-8;
 
 /// Five digits are more than a screen shows.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
+    to_digits(value, 5)
 }
 
 /// Polar view on a log scale: the reference above the axis, the first test below.

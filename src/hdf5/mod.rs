@@ -67,7 +67,7 @@ pub use output::WriteOptions;
 pub use reader::{TableReader, read};
 pub use schema::FORMAT_VERSION;
 pub use space::{available_bytes, estimate_bytes};
-pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter};
+pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter, position_of};
 pub use writer::{TableWriter, write};
 
 use crate::phase_table::InvalidTable;

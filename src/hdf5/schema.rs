@@ -4,6 +4,7 @@ use super::TableError;
 use super::chunk::{ChunkEncoder, encode_and_write, encoders};
 use super::output::WriteOptions;
 use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
+use crate::math::digits::to_digits;
 use crate::phase_table::{Axes, ForwardPeak, Quantity, TableHeader};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -170,7 +171,7 @@ pub(super) fn degree(radians: f64) -> f64 {
 
 /// Round to 13 significant digits where that changes the last bits only.
 pub(super) fn tidy(value: f64) -> f64 {
-    let rounded = format!("{value:.12e}").parse().unwrap_or(value);
+    let rounded = to_digits(value, 13);
     if (rounded - value).abs() <= 4.0 * f64::EPSILON * value.abs() { rounded } else { value }
 }
 

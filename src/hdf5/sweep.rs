@@ -53,6 +53,17 @@ impl SweepAxis {
     }
 }
 
+/// Index per axis of a table by its number, in a sweep of this shape; the last axis is the fastest.
+pub fn position_of(number: usize, shape: &[usize]) -> Vec<usize> {
+    let mut rest = number;
+    let mut position = vec![0; shape.len()];
+    for (index, length) in position.iter_mut().zip(shape).rev() {
+        *index = rest % length;
+        rest /= length;
+    }
+    position
+}
+
 /// A sweep being written. Dropped before [`SweepWriter::finish`] it leaves nothing behind.
 pub struct SweepWriter {
     body: Body,
