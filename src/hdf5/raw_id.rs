@@ -1,6 +1,7 @@
 //! Identifiers of the HDF5 C library, which close themselves, and what the library says went wrong.
 //!
-//! [`owned`], [`done`] and [`failure`] are for reading: what the library refuses is a damaged file.
+//! [`owned`], [`done`] and [`failure`] are for reading, where a refusal means a damaged file.
+//! Writing has its own, for there it is the disk that refuses.
 
 use super::{TableError, damaged};
 use hdf5::sync::sync;
