@@ -8,9 +8,9 @@
 //! [`phase_table`] is what all computation produces and all output reads.
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `lee`, `batch` · `simulate` · `farfield` · `trace` · `plan`, `series`, `hdf5`,
-//! `compare`, `render`, `export` · `scene`, `phase_table` · `optics`, `medium`, `shape`, `color` ·
-//! `math`.
+//! `cli` · `lee`, `batch` · `simulate` · `farfield` · `trace`, `export` · `plan`, `series`, `hdf5`,
+//! `compare`, `render` · `scene`, `phase_table` · `optics`, `medium`, `shape`, `color`,
+//! `size_distribution` · `math`, `pending_file`.
 
 pub mod math;
 pub mod pending_file;
@@ -31,14 +31,13 @@ pub mod plan;
 pub mod render;
 pub mod series;
 
+#[cfg(feature = "hdf5")]
+pub mod export;
 pub mod trace;
 
 pub mod farfield;
 
 pub mod simulate;
-
-#[cfg(feature = "hdf5")]
-pub mod export;
 
 #[cfg(feature = "hdf5")]
 pub mod batch;

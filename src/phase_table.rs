@@ -1,8 +1,14 @@
 //! `PhaseTable`: the narrow waist. Everything that computes scattering produces one, wavelength
 //! slab by wavelength slab; everything else (HDF5, pictures, reports, exports) reads nothing but it.
 
+mod validate;
+
+pub use validate::InvalidTable;
+
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
+use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// Coordinates of a table. θ ascending in [0, π]; φ ascending in [0, 2π] (both ends may be there).
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +54,7 @@ pub enum ForwardPeak {
 }
 
 /// Where the light went that met the particle, as fractions of the power on its silhouette.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyBudget {
     /// Power that left after `p` chords, by order.
     pub left_by_order: Vec<f64>,
@@ -135,6 +141,13 @@ impl Axes {
     pub fn solid_angle_factors(&self) -> (Vec<f64>, Vec<f64>) {
         (theta_weights(&self.theta), phi_weights(&self.phi))
     }
+
+    /// True if the samples stand for all directions of the sphere.
+    pub fn cover_sphere(&self) -> bool {
+        let (theta, phi) = self.solid_angle_factors();
+        let (theta, phi): (f64, f64) = (theta.iter().sum(), phi.iter().sum());
+        (theta - 2.0).abs() < 1e-6 && (phi - TAU).abs() < 1e-6 * TAU
+    }
 }
 
 /// `cos` of the cell's upper edge minus `cos` of its lower edge, per θ sample.
@@ -153,7 +166,6 @@ fn theta_weights(theta: &[f64]) -> Vec<f64> {
 
 /// Width in azimuth per φ sample.
 fn phi_weights(phi: &[f64]) -> Vec<f64> {
-    use std::f64::consts::TAU;
     let count = phi.len();
     if count < 2 {
         return vec![TAU; count];
@@ -161,120 +173,26 @@ fn phi_weights(phi: &[f64]) -> Vec<f64> {
     let span = phi[count - 1] - phi[0];
     let last_step = phi[count - 1] - phi[count - 2];
     let wraps = (span + last_step - TAU).abs() < 1e-9 * TAU;
+    // From the last sample on to the first.
+    let seam = if wraps { phi[0] + TAU - phi[count - 1] } else { 0.0 };
     (0..count)
         .map(|j| {
-            let below = if j > 0 {
-                phi[j] - phi[j - 1]
-            } else if wraps {
-                phi[0] + TAU - phi[count - 1]
-            } else {
-                0.0
-            };
-            let above = if j + 1 < count {
-                phi[j + 1] - phi[j]
-            } else if wraps {
-                phi[0] + TAU - phi[count - 1]
-            } else {
-                0.0
-            };
+            let below = if j > 0 { phi[j] - phi[j - 1] } else { seam };
+            let above = if j + 1 < count { phi[j + 1] - phi[j] } else { seam };
             0.5 * (below + above)
         })
         .collect()
 }
 
-/// What is wrong with a table or its header: the field, the value, what is accepted.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field} = {value}: {accepted}")]
-pub struct InvalidTable {
-    pub field: String,
-    pub value: String,
-    pub accepted: String,
-}
-
-fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
-    InvalidTable { field: field.into(), value: value.to_string(), accepted: accepted.into() }
-}
-
-impl Axes {
-    /// # Errors
-    /// When an axis is empty, not finite, not ascending (θ, φ) or out of its range.
-    pub fn validate(&self) -> Result<(), InvalidTable> {
-        use std::f64::consts::{PI, TAU};
-        if self.wavelength.is_empty() {
-            return Err(invalid("wavelengths", "none", "at least one wavelength"));
-        }
-        if let Some(bad) = self.wavelength.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
-            return Err(invalid("wavelength", bad, "a positive length in metres"));
-        }
-        ascending("theta", &self.theta, PI)?;
-        ascending("phi", &self.phi, TAU)
-    }
-}
-
-/// Angles finite, strictly ascending, within [0, most] up to rounding.
-fn ascending(field: &str, angles: &[f64], most: f64) -> Result<(), InvalidTable> {
-    if angles.is_empty() {
-        return Err(invalid(field, "none", "at least one angle"));
-    }
-    let within = |angle: f64| (-1e-9..=most * (1.0 + 1e-9)).contains(&angle);
-    if let Some(bad) = angles.iter().find(|angle| !within(**angle)) {
-        let accepted = format!("angles from 0 to {most:.4} radians");
-        return Err(invalid(field, bad, &accepted));
-    }
-    match angles.windows(2).find(|pair| pair[0] >= pair[1]) {
-        Some(pair) => Err(invalid(field, pair[1], "angles must ascend")),
-        None => Ok(()),
-    }
-}
-
-impl TableHeader {
-    /// # Errors
-    /// When an axis is wrong, or `rotational_symmetry` contradicts the azimuths.
-    pub fn validate(&self) -> Result<(), InvalidTable> {
-        self.axes.validate()?;
-        if self.rotational_symmetry && self.axes.phi.len() != 1 {
-            let accepted = "one azimuth where the scattering does not depend on it";
-            return Err(invalid("phi", format!("{} azimuths", self.axes.phi.len()), accepted));
-        }
-        Ok(())
-    }
-}
-
-/// How far an element may exceed S11, relative: rounding to `f32` of both.
-const ELEMENT_TOLERANCE: f64 = 1e-5;
-/// How far Σ P·ΔΩ may be from 1 where the table covers the sphere.
-pub const NORMALISATION_TOLERANCE: f64 = 1e-3;
-
-impl Axes {
-    /// True if the samples stand for all directions of the sphere.
-    pub fn cover_sphere(&self) -> bool {
-        use std::f64::consts::TAU;
-        let (theta, phi) = self.solid_angle_factors();
-        let (theta, phi): (f64, f64) = (theta.iter().sum(), phi.iter().sum());
-        (theta - 2.0).abs() < 1e-6 && (phi - TAU).abs() < 1e-6 * TAU
-    }
-}
-
 impl Slab {
     /// Σ P·ΔΩ over the samples.
     pub fn sum(&self, axes: &Axes) -> f64 {
-        self.moment(axes, |_| 1.0)
-    }
-
-    /// Mean cosine of the scattering angle over the samples, from the values alone (the separated
-    /// peak, if any, is not in it).
-    pub fn sampled_asymmetry(&self, axes: &Axes) -> f64 {
-        self.moment(axes, f64::cos) / self.sum(axes)
-    }
-
-    /// Σ P·f(θ)·ΔΩ over the samples.
-    fn moment(&self, axes: &Axes, weight: impl Fn(f64) -> f64) -> f64 {
         let (theta, phi) = axes.solid_angle_factors();
         let face = self.values.index_axis(ndarray::Axis(0), 0);
-        let rows = face.outer_iter().zip(theta.iter().zip(&axes.theta));
-        rows.map(|(row, (width, &angle))| {
+        let rows = face.outer_iter().zip(theta);
+        rows.map(|(row, height)| {
             let line: f64 = row.iter().zip(&phi).map(|(&value, w)| f64::from(value) * w).sum();
-            line * width * weight(angle)
+            line * height
         })
         .sum()
     }
@@ -287,92 +205,5 @@ impl Slab {
         face.outer_iter()
             .map(|row| row.iter().zip(&phi).map(|(&v, w)| f64::from(v) * w).sum::<f64>() / total)
             .collect()
-    }
-
-    /// Check one wavelength against its header: finite, S11 ≥ |Sij|, normalised.
-    ///
-    /// `rounding` is the relative error with which values were stored (0: as computed).
-    ///
-    /// # Errors
-    /// The first thing found wrong, with its place.
-    pub fn validate(&self, header: &TableHeader, rounding: f64) -> Result<(), InvalidTable> {
-        let axes = &header.axes;
-        let place = |i: usize, j: usize| {
-            format!(
-                "at {} nm, theta {:.4}°, phi {:.4}°",
-                self.wavelength * 1e9,
-                axes.theta[i].to_degrees(),
-                axes.phi[j].to_degrees()
-            )
-        };
-        let face = self.values.index_axis(ndarray::Axis(0), 0);
-        for ((element, i, j), &value) in self.values.indexed_iter() {
-            if !value.is_finite() {
-                return Err(invalid("phase function", value, &format!("finite {}", place(i, j))));
-            }
-            let (s11, size) = (f64::from(face[(i, j)]), f64::from(value.abs()));
-            let most = s11 * (1.0 + ELEMENT_TOLERANCE + 2.0 * rounding);
-            if element > 0 && size > most {
-                let name = format!("S{}{}", element / 4 + 1, element % 4 + 1);
-                let accepted = format!("at most S11 = {s11:e} {}", place(i, j));
-                return Err(invalid(&name, value, &accepted));
-            }
-            if element == 0 && value < 0.0 {
-                return Err(invalid("S11", value, &format!("not negative {}", place(i, j))));
-            }
-        }
-        self.validate_numbers(header)
-    }
-
-    fn validate_numbers(&self, header: &TableHeader) -> Result<(), InvalidTable> {
-        let (scattering, extinction) =
-            (self.scattering_cross_section, self.extinction_cross_section);
-        if !(scattering.is_finite() && scattering > 0.0) {
-            return Err(invalid("scattering_cross_section", scattering, "a positive area in m²"));
-        }
-        if !(extinction.is_finite() && extinction >= scattering * (1.0 - 1e-6)) {
-            let accepted = "at least the scattering cross-section";
-            return Err(invalid("extinction_cross_section", extinction, accepted));
-        }
-        if !(-1.0..=1.0).contains(&self.asymmetry) {
-            return Err(invalid("asymmetry", self.asymmetry, "from −1 to 1"));
-        }
-        let expected = match header.forward_peak {
-            ForwardPeak::CellAverage => 1.0,
-            ForwardPeak::Separate => 1.0 - self.peak_share,
-            ForwardPeak::Point => return Ok(()),
-        };
-        let sum = self.sum(&header.axes);
-        if header.axes.cover_sphere() && (sum - expected).abs() > NORMALISATION_TOLERANCE {
-            let accepted = format!(
-                "{expected:.6} ± {NORMALISATION_TOLERANCE} at {} nm",
-                self.wavelength * 1e9
-            );
-            return Err(invalid("sum of P times solid angle", sum, &accepted));
-        }
-        Ok(())
-    }
-}
-
-impl PhaseTable {
-    /// Check the whole table: axes, shapes, finite values, S11 ≥ |Sij|, normalisation.
-    ///
-    /// # Errors
-    /// The first thing found wrong, with its place.
-    pub fn validate(&self) -> Result<(), InvalidTable> {
-        self.header.validate()?;
-        let axes = &self.header.axes;
-        if self.slabs.len() != axes.wavelength.len() {
-            let accepted = format!("{}, one per wavelength", axes.wavelength.len());
-            return Err(invalid("slabs", self.slabs.len(), &accepted));
-        }
-        let shape = (self.header.quantity.elements(), axes.theta.len(), axes.phi.len());
-        self.slabs.iter().try_for_each(|slab| {
-            if slab.values.dim() != shape {
-                let accepted = format!("{shape:?} (elements, theta, phi)");
-                return Err(invalid("slab shape", format!("{:?}", slab.values.dim()), &accepted));
-            }
-            slab.validate(&self.header, 0.0)
-        })
     }
 }

@@ -108,8 +108,7 @@ impl Plan {
         }
         let index = indices.first().map_or(1.33, |i| i.re);
         let (orders, forward_diffraction) = orders(scene, index, &mut reasons);
-        let rings = scene.rays_across.map_or_else(|| rings(scene.tolerance), |n| n.div_ceil(2));
-        let spokes = 2 * rings;
+        let rings = rings(scene.rays_across, scene.tolerance);
         Ok(Self {
             engine,
             shape,
@@ -119,7 +118,7 @@ impl Plan {
             forward_diffraction,
             tolerance: scene.tolerance,
             rings,
-            spokes,
+            spokes: 2 * rings,
             reasons,
         })
     }
@@ -136,7 +135,7 @@ impl Plan {
     ) -> Self {
         let mut reasons = Vec::new();
         let symmetry = symmetry(&shape, &mut reasons);
-        let rings = rays_across.map_or_else(|| rings(tolerance), |n| n.div_ceil(2));
+        let rings = rings(rays_across, tolerance);
         Self {
             engine,
             shape,
@@ -234,7 +233,7 @@ fn symmetry(shape: &Shape, reasons: &mut Vec<String>) -> Symmetry {
 /// Rays need a particle of at least a wavelength around, and phases that f64 can hold.
 fn check_size(scene: &Scene, radius: f64) -> Result<(), PlanError> {
     for &wavelength in &scene.wavelengths {
-        let size_parameter = std::f64::consts::TAU * radius / wavelength;
+        let size_parameter = TAU * radius / wavelength;
         if !(RAY_SIZES.0..=RAY_SIZES.1).contains(&size_parameter) {
             return Err(PlanError::Size { wavelength_nm: wavelength * 1e9, size_parameter });
         }
@@ -314,7 +313,9 @@ fn left_inside(index: f64, last: u32) -> Vec<f64> {
     left
 }
 
-/// Rings of the patch grid for a tolerance: the error of the path falls with the cube of the step.
-fn rings(tolerance: f64) -> usize {
-    (200.0 * (0.01 / tolerance).cbrt()).clamp(40.0, 2000.0) as usize
+/// Rings of the patch grid: half the rays across where they are given, else by the tolerance, for
+/// the error of the path falls with the cube of the step.
+fn rings(rays_across: Option<usize>, tolerance: f64) -> usize {
+    let chosen = || (200.0 * (0.01 / tolerance).cbrt()).clamp(40.0, 2000.0) as usize;
+    rays_across.map_or_else(chosen, |rays| rays.div_ceil(2))
 }

@@ -78,86 +78,17 @@ fn outputs_are_checked_first() {
 
 #[test]
 fn scatter_words_are_checked() {
-    for (arguments, word) in [
-        (
-            vec!["scatter", "--method", "mie", "--size-parameter", "-1", "--theta", "10"],
-            "size-parameter",
-        ),
-        (
-            vec![
-                "scatter",
-                "--method",
-                "rays",
-                "--size-parameter",
-                "1e300",
-                "--index",
-                "1.33",
-                "--theta",
-                "10",
-            ],
-            "accepted from 1 to 1e9",
-        ),
-        (
-            vec![
-                "scatter",
-                "--method",
-                "rays",
-                "--size-parameter",
-                "0.01",
-                "--index",
-                "1.33",
-                "--theta",
-                "10",
-            ],
-            "use --method mie",
-        ),
-        (
-            vec![
-                "scatter",
-                "--method",
-                "mie",
-                "--size-parameter",
-                "10",
-                "--index",
-                "1.3-0.1",
-                "--theta",
-                "10",
-            ],
-            "index",
-        ),
-        (
-            vec![
-                "scatter",
-                "--method",
-                "mie",
-                "--size-parameter",
-                "10",
-                "--index",
-                "1.3",
-                "--theta",
-                "200",
-            ],
-            "theta",
-        ),
-        (
-            vec![
-                "scatter",
-                "--method",
-                "mie",
-                "--shape",
-                "raindrop",
-                "--size-parameter",
-                "10",
-                "--index",
-                "1.3",
-                "--theta",
-                "20",
-            ],
-            "sphere",
-        ),
+    for (words, told) in [
+        ("--method mie --size-parameter -1 --theta 10", "size-parameter"),
+        ("--method rays --size-parameter 1e300 --index 1.33 --theta 10", "accepted from 1 to 1e9"),
+        ("--method rays --size-parameter 0.01 --index 1.33 --theta 10", "use --method mie"),
+        ("--method mie --size-parameter 10 --index 1.3-0.1 --theta 10", "index"),
+        ("--method mie --size-parameter 10 --index 1.3 --theta 200", "theta"),
+        ("--method mie --shape raindrop --size-parameter 10 --index 1.3 --theta 20", "sphere"),
     ] {
+        let arguments: Vec<&str> = ["scatter"].into_iter().chain(words.split(' ')).collect();
         let (code, message) = gonio(&arguments);
-        assert_eq!(code, 2, "{arguments:?}: {message}");
-        assert!(message.contains(word), "{arguments:?}: {message}");
+        assert_eq!(code, 2, "{words}: {message}");
+        assert!(message.contains(told), "{words}: {message}");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::plan::{BatchPlan, PlannedTable};
 use super::shard::ShardStatus;
+use super::sweep::tidy;
 use super::{BatchError, invalid};
 use crate::hdf5::{AxisValues, SweepAxis, SweepCoordinate, SweepWriter, TableReader, WriteOptions};
 use crate::phase_table::{Slab, TableHeader};
@@ -151,7 +152,6 @@ fn coordinate<'a>(
     let numbers: Option<Vec<f64>> = values.iter().map(|value| value.as_f64()).collect();
     let (values, units) = match numbers {
         Some(numbers) => {
-            let tidy = |value: f64| format!("{value:.12e}").parse().unwrap_or(value);
             (AxisValues::Numbers(numbers.iter().map(|n| tidy(n * factor)).collect()), units)
         }
         None => {

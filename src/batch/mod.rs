@@ -32,8 +32,8 @@ pub enum BatchError {
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
     #[error(
-        "{} of {total} tables are not computed yet (first missing: {first}); run the batch again, or merge with --allow-missing",
-        missing
+        "{missing} of {total} tables are not computed yet (first missing: {first}); run the batch \
+         again, or merge with --allow-missing"
     )]
     Missing { missing: usize, total: usize, first: String },
     #[error(
@@ -53,32 +53,45 @@ pub enum BatchError {
     Io { path: PathBuf, source: std::io::Error },
 }
 
+/// Exit codes for drivers of batches. The first two are those of the whole program.
+mod exit_code {
+    pub const FAILED: u8 = 1;
+    pub const WRONG_INPUT: u8 = 2;
+    /// Input or output failed.
+    pub const DISK: u8 = 4;
+    /// Numerical failure: it would fail again.
+    pub const NUMERICAL: u8 = 5;
+    /// Try again later (`EX_TEMPFAIL` of `sysexits.h`).
+    pub const TEMPORARY: u8 = 75;
+}
+
 impl BatchError {
     /// Exit code for drivers: 2 wrong input, 4 input or output failed, 5 numerical failure (do not
-    /// retry), 75 temporary (retry).
+    /// retry), 75 temporary (retry), 1 else.
     pub fn exit_code(&self) -> u8 {
         match self {
             BatchError::Plan { .. }
             | BatchError::Invalid { .. }
             | BatchError::Memory { .. }
-            | BatchError::Scene(_) => 2,
-            BatchError::Missing { .. } => 1,
-            BatchError::Numerical { .. } => 5,
-            BatchError::Simulate(SimulateError::Energy { .. }) => 5,
-            BatchError::Simulate(_) => 2,
-            BatchError::Table(TableError::NoSpace { .. }) => 75,
+            | BatchError::Scene(_) => exit_code::WRONG_INPUT,
+            BatchError::Missing { .. } => exit_code::FAILED,
+            BatchError::Numerical { .. } | BatchError::Simulate(SimulateError::Energy { .. }) => {
+                exit_code::NUMERICAL
+            }
+            BatchError::Simulate(_) => exit_code::WRONG_INPUT,
+            BatchError::Table(TableError::NoSpace { .. }) => exit_code::TEMPORARY,
             BatchError::Table(TableError::Write { message, .. })
                 if message.contains("No space left") || message.contains("quota") =>
             {
-                75
+                exit_code::TEMPORARY
             }
-            BatchError::Table(error) if error.is_wrong_input() => 2,
+            BatchError::Table(error) if error.is_wrong_input() => exit_code::WRONG_INPUT,
             BatchError::Table(TableError::Io { source, .. }) | BatchError::Io { source, .. }
                 if is_temporary(source) =>
             {
-                75
+                exit_code::TEMPORARY
             }
-            BatchError::Table(_) | BatchError::Io { .. } => 4,
+            BatchError::Table(_) | BatchError::Io { .. } => exit_code::DISK,
         }
     }
 }

@@ -1,6 +1,8 @@
 //! From a sweep file to its points: which values are swept, and the scene of each point.
 
 use super::{BatchError, invalid};
+use crate::hdf5::position_of;
+use crate::math::digits::to_digits;
 use crate::scene::{line_at, read_limited};
 use std::path::Path;
 use toml::{Table, Value};
@@ -93,19 +95,7 @@ impl Sweep {
 
     /// Index per axis of the point number `index`; the last axis is the fastest.
     pub fn position(&self, index: usize) -> Vec<usize> {
-        let mut rest = index;
-        let mut position: Vec<usize> = self
-            .axes
-            .iter()
-            .rev()
-            .map(|axis| {
-                let at = rest % axis.len();
-                rest /= axis.len();
-                at
-            })
-            .collect();
-        position.reverse();
-        position
+        position_of(index, &self.shape())
     }
 
     /// The scene file of a point.
@@ -181,9 +171,12 @@ fn range_values(key: &str, range: &Table) -> Result<Vec<Value>, BatchError> {
             None => from + (to - from) * t,
         }
     };
-    // The noise in the last digits of 0.1 + 0.2 does not belong into names and hashes.
-    let tidy = |value: f64| format!("{value:.12e}").parse().unwrap_or(value);
     Ok((0..=steps as usize).map(|i| Value::Float(tidy(at(i)))).collect())
+}
+
+/// Free of the noise in the last digits of 0.1 + 0.2, which does not belong into names and hashes.
+pub(super) fn tidy(value: f64) -> f64 {
+    to_digits(value, 13)
 }
 
 /// `[sweep] zip = ["a", "b"]` or `[["a", "b"], ["c", "d"]]`.

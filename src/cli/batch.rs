@@ -202,7 +202,7 @@ fn merge(args: &MergeArgs) -> anyhow::Result<()> {
     if args.place.json {
         println!("{}", json!({ "file": output, "tables": plan.tables.len(), "bytes": bytes }));
     } else {
-        let size = gonio::hdf5::human_bytes(bytes);
+        let size = gonio::hdf5::decimal_bytes(bytes);
         println!("{}: {} tables, {size}", output.display(), plan.tables.len());
     }
     Ok(())
@@ -213,7 +213,7 @@ fn run_all(args: &RunArgs) -> anyhow::Result<()> {
     let plan = read_plan(&args.place.plan, Selection::All)?;
     let tables: Vec<&PlannedTable> = plan.tables.iter().collect();
     let bar = progress_bar(tables.len());
-    let (mut done, mut skipped, mut worst) = (0, 0, None);
+    let (mut done, mut skipped, mut first_error) = (0, 0, None);
     let mut failed = Vec::new();
     gonio::batch::run(&plan, &tables, &args.place.dir, args.memory.limit(), |event| {
         match event {
@@ -227,7 +227,7 @@ fn run_all(args: &RunArgs) -> anyhow::Result<()> {
                 failed.push(
                     json!({ "id": id, "error": error.to_string(), "code": error.exit_code() }),
                 );
-                worst.get_or_insert(error);
+                first_error.get_or_insert(error);
             }
         }
         bar.set_message(format!("{} failed", failed.len()));
@@ -248,7 +248,7 @@ fn run_all(args: &RunArgs) -> anyhow::Result<()> {
             failed.len()
         );
     }
-    match worst {
+    match first_error {
         Some(error) => Err(error.into()),
         None => Ok(()),
     }

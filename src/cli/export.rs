@@ -3,7 +3,7 @@
 use super::UsageError;
 use clap::{Args, ValueEnum};
 use gonio::export::average::{Averaged, average};
-use gonio::export::{csv, databases, exr, mitsuba, strip};
+use gonio::export::{csv, eradiate, exr, libradtran, mitsuba, sasktran2, strip};
 use gonio::hdf5::{self, AxisValues, SweepReader, TableError, write_netcdf};
 use gonio::pending_file::write_whole;
 use gonio::phase_table::PhaseTable;
@@ -92,17 +92,17 @@ pub fn run(args: ExportArgs) -> anyhow::Result<()> {
     match args.to {
         Format::Mitsuba => write_mitsuba(&average(table, cap)?, &output, args.samples)?,
         Format::Eradiate => {
-            let content = databases::eradiate(table, &average(table, cap)?, moments);
+            let content = eradiate::database(table, &average(table, cap)?, moments);
             write_netcdf(&output, &content, args.overwrite)?;
         }
         Format::Sasktran2 => {
             let averaged =
                 tables.iter().map(|t| average(t, cap)).collect::<Result<Vec<Averaged>, _>>()?;
             let pairs: Vec<_> = tables.iter().zip(&averaged).collect();
-            write_netcdf(&output, &databases::sasktran2(&pairs, moments), args.overwrite)?;
+            write_netcdf(&output, &sasktran2::database(&pairs, moments), args.overwrite)?;
         }
         Format::Libradtran => {
-            let content = databases::libradtran(table, &average(table, cap)?, moments);
+            let content = libradtran::database(table, &average(table, cap)?, moments);
             write_netcdf(&output, &content, args.overwrite)?;
         }
         Format::Csv => save(&output, csv::averaged(&average(table, cap)?).as_bytes())?,

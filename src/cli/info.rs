@@ -2,8 +2,10 @@
 
 use super::UsageError;
 use clap::Args;
-use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, human_bytes};
-use gonio::phase_table::{Quantity, TableHeader};
+use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, decimal_bytes};
+use gonio::math::digits::to_digits;
+use gonio::phase_table::TableHeader;
+use gonio::scene::Named;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -54,10 +56,7 @@ fn common(path: &Path, header: &TableHeader) -> Value {
     json!({
         "file": path.display().to_string(),
         "bytes": std::fs::metadata(path).map_or(0, |data| data.len()),
-        "quantity": match header.quantity {
-            Quantity::PhaseFunction => "phase_function",
-            Quantity::Mueller => "mueller",
-        },
+        "quantity": header.quantity.name(),
         "method": header.method,
         "shape": header.shape,
         "radius_um": number(header.radius * 1e6),
@@ -95,13 +94,7 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
                 .caustic_order
                 .as_ref()
                 .map(|mask| mask.iter().filter(|order| **order > 0).count()),
-            "energy": slab.energy.map(|energy| json!({
-                "left_by_order": energy.left_by_order,
-                "absorbed": energy.absorbed,
-                "totally_reflected": energy.totally_reflected,
-                "truncated": energy.truncated,
-                "residual": energy.residual,
-            })),
+            "energy": slab.energy,
         }));
     }
     description["wavelengths"] = Value::Array(slabs);
@@ -135,7 +128,7 @@ fn number(value: f64) -> Value {
 }
 
 fn tidy(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
+    to_digits(value, 10)
 }
 
 /// `key: value` lines for people; lists of objects as blocks.
@@ -158,7 +151,7 @@ fn print_object(object: &Value, indent: usize) {
             }
             Value::String(text) => println!("{space}{key}: {text}"),
             Value::Number(bytes) if key == "bytes" => {
-                println!("{space}size: {}", human_bytes(bytes.as_u64().unwrap_or(0)));
+                println!("{space}size: {}", decimal_bytes(bytes.as_u64().unwrap_or(0)));
             }
             other => println!("{space}{key}: {other}"),
         }

@@ -2,7 +2,7 @@
 
 use super::UsageError;
 use clap::Args;
-use gonio::scene::{Scene, TableSize, human_bytes};
+use gonio::scene::{Scene, human_bytes};
 
 /// The flag of commands that estimate their memory before they start.
 #[derive(Args, Clone, Copy, Debug)]
@@ -21,7 +21,7 @@ impl MemoryFlag {
     /// Refuse a scene that would not fit.
     pub fn check(self, scene: &Scene) -> Result<(), UsageError> {
         let size = scene.table_size();
-        let needed = needed(&size);
+        let needed = size.working_memory();
         match self.limit() {
             Some(limit) if needed > limit => Err(UsageError(format!(
                 "table.theta_deg × table.azimuth_deg = {} × {}: a wavelength of {} needs about {} of \
@@ -44,11 +44,6 @@ fn gibibytes(text: &str) -> Result<u64, String> {
         }
         _ => Err("a number of GiB above 0 is accepted, such as 8 or 0.5".into()),
     }
-}
-
-/// Memory that a table needs while it is made, bytes.
-pub fn needed(size: &TableSize) -> u64 {
-    size.working_memory()
 }
 
 /// Memory that is free, bytes; `None` where the system does not say.

@@ -14,7 +14,6 @@ mod plan;
 mod plot;
 mod progress;
 mod rays;
-mod rays_drawing;
 mod render;
 mod render_drops;
 mod scatter;
@@ -140,12 +139,13 @@ fn exit_code(error: &anyhow::Error) -> u8 {
 }
 
 fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
-    let kinds = cause.is::<UsageError>()
+    // Raised by wrong input alone; the kinds below also by a full disk, by memory or by physics.
+    let always = cause.is::<UsageError>()
         || cause.is::<SceneError>()
         || cause.is::<MediumError>()
         || cause.is::<ShapeError>()
         || cause.is::<PlanError>();
-    kinds
+    always
         || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
         || cause.downcast_ref::<ExportError>().is_some_and(ExportError::is_wrong_input)
         || cause

@@ -1,6 +1,5 @@
 //! `gonio plan`: what a scene would compute, what is skipped and why.
 
-use super::memory;
 use super::scene_flags::SceneFlags;
 use clap::Args;
 use gonio::plan::{Plan, Symmetry};
@@ -41,7 +40,7 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
             "theta": scene.theta.len(),
             "azimuths_stored": azimuths.len(),
             "azimuths_computed": computed.len(),
-            "memory_bytes": memory::needed(&size),
+            "memory_bytes": size.working_memory(),
             "expected_seconds": seconds,
             "reasons": plan.reasons,
         });
@@ -62,7 +61,7 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
     println!(
         "expected: {seconds:.1} s on {} threads, {} of memory",
         rayon::current_num_threads(),
-        human_bytes(memory::needed(&size))
+        human_bytes(size.working_memory())
     );
     Ok(())
 }

@@ -1,18 +1,14 @@
-//! Plots: the shipped font, common styles, and the way a figure gets into a file.
+//! Plots: common styles, and the way a figure gets into a file.
 //!
-//! A bare machine has no fonts, and without one neither PNG nor SVG can be drawn; so one font is
-//! compiled in and registered here. A figure draws itself on any backend, and the ending of the
-//! file's name picks PNG or SVG.
+//! A figure draws itself on any backend, and the ending of the file's name picks PNG or SVG.
 
 use anyhow::{Context, Result, anyhow};
+use gonio::render::ensure_font;
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
 use std::path::Path;
-use std::sync::OnceLock;
 
-/// The family name under which the shipped font (DejaVu Sans) is registered.
-pub const FONT: &str = "sans-serif";
+pub use gonio::render::FONT;
 
 /// Colours that stay apart for colour-blind readers (Okabe & Ito 2008), in order of use.
 pub const PALETTE: [RGBColor; 7] = [
@@ -34,16 +30,6 @@ pub trait Figure {
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>>;
 }
 
-/// Registers the shipped font, once per process. Every plot calls it first.
-pub fn ensure_font() -> Result<()> {
-    static REGISTERED: OnceLock<bool> = OnceLock::new();
-    let done = REGISTERED.get_or_init(|| {
-        let bytes = include_bytes!("../../data/fonts/DejaVuSans-subset.ttf");
-        register_font(FONT, FontStyle::Normal, bytes).is_ok()
-    });
-    if *done { Ok(()) } else { Err(anyhow!("the font compiled into the program is damaged")) }
-}
-
 /// Draws `figure` and writes it as PNG or SVG, by the ending of `path`. Size in pixels.
 ///
 /// The file appears only when it is complete.
@@ -63,7 +49,7 @@ pub fn save<F: Figure>(figure: &F, path: &Path, size: (u32, u32)) -> Result<()> 
 }
 
 /// The figure as the text of an SVG document.
-pub fn svg_text<F: Figure>(figure: &F, size: (u32, u32)) -> Result<String> {
+fn svg_text<F: Figure>(figure: &F, size: (u32, u32)) -> Result<String> {
     ensure_font()?;
     let mut text = String::new();
     paint(figure, SVGBackend::with_string(&mut text, size))?;
@@ -71,7 +57,7 @@ pub fn svg_text<F: Figure>(figure: &F, size: (u32, u32)) -> Result<String> {
 }
 
 /// The figure as the bytes of a PNG file.
-pub fn png_bytes<F: Figure>(figure: &F, size: (u32, u32)) -> Result<Vec<u8>> {
+fn png_bytes<F: Figure>(figure: &F, size: (u32, u32)) -> Result<Vec<u8>> {
     ensure_font()?;
     let mut pixels = vec![255_u8; size.0 as usize * size.1 as usize * 3];
     paint(figure, BitMapBackend::with_buffer(&mut pixels, size))?;

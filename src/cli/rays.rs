@@ -1,23 +1,19 @@
 //! `gonio rays`: ray paths and deviation of one order in the vertical symmetry plane.
 
+mod drawing;
+mod plane;
+
 use super::UsageError;
 use super::plot::write_whole;
-use super::rays_drawing::draw;
-use super::scatter_input::{Index, parse_index};
+use super::scatter_input::{Index, ShapeKind, parse_index, raindrop_model};
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use gonio::medium::Medium;
-use gonio::shape::{RaindropModel, Shape};
-use gonio::trace::{Exit, Tracer};
+use gonio::shape::Shape;
+use gonio::trace::Tracer;
+use plane::{PlaneRay, Rainbow, rainbows, trace};
 use serde_json::json;
 use std::path::PathBuf;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ShapeKind {
-    Sphere,
-    Raindrop,
-    Spheroid,
-}
 
 /// Ray paths and deviation of one order in the vertical symmetry plane
 #[derive(Args)]
@@ -57,20 +53,6 @@ pub struct RaysArgs {
     output: Option<PathBuf>,
 }
 
-/// One ray of the plane.
-pub struct PlaneRay {
-    pub impact: f64,
-    pub exit: Exit<f64>,
-    /// Points where the ray meets the surface, in the frame of the light (along z, upper side x).
-    pub points: Vec<[f64; 2]>,
-}
-
-/// A ray of stationary deviation.
-pub struct Rainbow {
-    pub impact: f64,
-    pub deviation: f64,
-}
-
 /// Most rays accepted.
 const MOST_RAYS: usize = 1_000_000;
 const HIGHEST_ORDER: u32 = 200;
@@ -101,7 +83,7 @@ pub fn run(args: RaysArgs) -> Result<()> {
         (0..args.count).filter_map(|i| trace(&tracer, args.order, impact(i))).collect();
     let rainbows = rainbows(&tracer, args.order, lower, upper);
     if let Some(path) = &args.output {
-        write_whole(path, draw(&shape, args.order, &rays, &rainbows).as_bytes())?;
+        write_whole(path, drawing::draw(&shape, args.order, &rays, &rainbows).as_bytes())?;
     }
     if args.json {
         println!("{}", to_json(&rays, &rainbows));
@@ -136,52 +118,9 @@ fn shape(args: &RaysArgs) -> Result<Shape> {
             Shape::spheroid(ratio, sun)?
         }
         ShapeKind::Raindrop => {
-            let models = [RaindropModel::BeardChuang1987, RaindropModel::ChuangBeard1990];
-            let model = models.into_iter().find(|m| m.name() == args.model).ok_or_else(|| {
-                usage(format!(
-                    "--model {}: beard-chuang-1987 and chuang-beard-1990 are accepted",
-                    args.model
-                ))
-            })?;
-            Shape::raindrop(args.radius_mm * 1e-3, model, sun)?
+            Shape::raindrop(args.radius_mm * 1e-3, raindrop_model(&args.model)?, sun)?
         }
     })
-}
-
-/// The ray at an impact parameter, if it leaves in this order.
-fn trace(tracer: &Tracer, order: u32, impact: f64) -> Option<PlaneRay> {
-    let mut points = Vec::new();
-    let exit = tracer.trace_with_points(impact, 0.0, order, &mut points)?;
-    Some(PlaneRay { impact, exit, points })
-}
-
-/// Stationary points of the deviation: zeros of the in-plane derivative of the exit direction.
-fn rainbows(tracer: &Tracer, order: u32, lower: f64, upper: f64) -> Vec<Rainbow> {
-    const SCAN: usize = 4000;
-    let mut found = Vec::new();
-    // turn of the direction within the plane, per impact
-    let turn = |impact: f64| {
-        let ray = trace(tracer, order, impact)?;
-        let (s, ds) = (ray.exit.direction, ray.exit.ds[0]);
-        Some((s.z * ds.x - s.x * ds.z, ray.exit.scattering_angle()))
-    };
-    let impact = |i: usize| -lower + (i as f64 + 0.5) / SCAN as f64 * (upper + lower);
-    for i in 1..SCAN {
-        let (mut a, mut b) = (impact(i - 1), impact(i));
-        let (Some((mut fa, _)), Some((fb, _))) = (turn(a), turn(b)) else { continue };
-        if fa * fb > 0.0 {
-            continue;
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (a + b);
-            let Some((f, _)) = turn(middle) else { break };
-            if f * fa > 0.0 { (a, fa) = (middle, f) } else { b = middle }
-        }
-        if let Some((_, deviation)) = turn(0.5 * (a + b)) {
-            found.push(Rainbow { impact: 0.5 * (a + b), deviation });
-        }
-    }
-    found
 }
 
 fn branch(bow: &Rainbow) -> &'static str {

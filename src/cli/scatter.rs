@@ -1,7 +1,9 @@
 //! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie or Debye terms.
 
 use super::UsageError;
-use super::scatter_input::{Index, parse_index, parse_orders, parse_theta};
+use super::scatter_input::{
+    Index, ShapeKind, parse_index, parse_orders, parse_theta, raindrop_model,
+};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use gonio::medium::Medium;
@@ -9,7 +11,7 @@ use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, RAY_SIZES, Symmetry, last_order};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
-use gonio::shape::{RaindropModel, Shape};
+use gonio::shape::Shape;
 use gonio::simulate;
 use gonio::trace::{Fates, Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
@@ -22,13 +24,6 @@ enum MethodName {
     Rays,
     Mie,
     Debye,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ShapeKind {
-    Sphere,
-    Raindrop,
-    Spheroid,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -256,14 +251,8 @@ fn shape(args: &ScatterArgs) -> Result<Shape> {
         }
         ShapeKind::Raindrop => {
             let radius = args.radius_um.or(args.diameter_mm.map(|d| 500.0 * d)).unwrap_or(1.0);
-            let models = [RaindropModel::BeardChuang1987, RaindropModel::ChuangBeard1990];
-            let model = models.into_iter().find(|m| m.name() == args.model).ok_or_else(|| {
-                usage(format!(
-                    "--model {}: beard-chuang-1987 and chuang-beard-1990 are accepted",
-                    args.model
-                ))
-            })?;
-            Shape::raindrop(radius * 1e-6, model, sun).map_err(|e| usage(e.to_string()))?
+            Shape::raindrop(radius * 1e-6, raindrop_model(&args.model)?, sun)
+                .map_err(|e| usage(e.to_string()))?
         }
     })
 }

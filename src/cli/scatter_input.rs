@@ -1,9 +1,30 @@
-//! Words of `gonio scatter`: indices, angles and orders.
+//! Words of `gonio scatter` and `gonio rays`: shapes, indices, angles and orders.
 
+use super::UsageError;
+use clap::ValueEnum;
+use gonio::scene::Named;
+use gonio::shape::RaindropModel;
 use num_complex::Complex64;
 
 /// Most angles accepted; more is surely a slip of the step.
 const MOST_ANGLES: f64 = 1e7;
+
+/// What the particle is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShapeKind {
+    Sphere,
+    Raindrop,
+    Spheroid,
+}
+
+/// The raindrop model of a name.
+pub fn raindrop_model(name: &str) -> Result<RaindropModel, UsageError> {
+    let known = RaindropModel::NAMES;
+    known.iter().find(|(word, _)| *word == name).map(|(_, model)| *model).ok_or_else(|| {
+        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        UsageError(format!("--model {name}: {} are accepted", words.join(" and ")))
+    })
+}
 
 /// An index given on the command line.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use super::UsageError;
 use clap::Args;
-use gonio::hdf5::{SweepReader, TableError, TableReader};
+use gonio::hdf5::{SweepReader, TableError, TableReader, position_of};
 use gonio::scene::{Scene, SceneFile};
 use std::path::{Path, PathBuf};
 
@@ -51,27 +51,20 @@ fn check_table(reader: &TableReader) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Rounding granted to the values of a sweep, whose reader does not tell it: that of ten bits of
+/// the mantissa.
+const SWEEP_ROUNDING: f64 = 1e-3;
+
 fn check_sweep(path: &Path) -> anyhow::Result<usize> {
     let reader = SweepReader::open(path)?;
-    let lengths: Vec<usize> = reader.axes().iter().map(|axis| axis.len()).collect();
+    let shape: Vec<usize> = reader.axes().iter().map(|axis| axis.len()).collect();
     let mut checked = 0;
     for (number, present) in reader.present()?.into_iter().enumerate() {
         if !present {
             continue;
         }
-        let mut rest = number;
-        let mut position: Vec<usize> = lengths
-            .iter()
-            .rev()
-            .map(|length| {
-                let at = rest % length;
-                rest /= length;
-                at
-            })
-            .collect();
-        position.reverse();
-        let table = reader.table(&position)?;
-        table.slabs.iter().try_for_each(|slab| slab.validate(&table.header, 1e-3))?;
+        let table = reader.table(&position_of(number, &shape))?;
+        table.slabs.iter().try_for_each(|slab| slab.validate(&table.header, SWEEP_ROUNDING))?;
         checked += 1;
     }
     Ok(checked)

@@ -1,4 +1,4 @@
-//! How different two colours look: CIELAB and the ΔE of 1976 and 2000.
+//! How different two colours look: CIELAB and the ΔE of 2000.
 
 /// CIELAB coordinates `[L*, a*, b*]`.
 pub type Lab = [f64; 3];
@@ -11,11 +11,6 @@ pub fn lab(xyz: [f64; 3], white: [f64; 3]) -> Lab {
     };
     let [x, y, z]: [f64; 3] = std::array::from_fn(|c| f(xyz[c] / white[c]));
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
-}
-
-/// Distance in CIELAB; about 2.3 is a just noticeable difference.
-pub fn delta_e_1976(a: Lab, b: Lab) -> f64 {
-    (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
 }
 
 /// CIEDE2000 with unit weights (Sharma, Wu & Dalal 2005, Color Res. Appl. 30, 21); 1 is about a

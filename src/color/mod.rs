@@ -25,7 +25,7 @@ mod srgb;
 mod sun;
 mod tabulated;
 
-pub use difference::{Lab, delta_e_1976, delta_e_2000, lab};
+pub use difference::{Lab, delta_e_2000, lab};
 pub use illuminant::Illuminant;
 pub use integrate::{ColorWeights, illuminant_white, spectrum_to_xyz};
 pub use observer::Observer;

@@ -10,7 +10,7 @@ pub(super) struct Tabulated<const COLUMNS: usize> {
 impl<const COLUMNS: usize> Tabulated<COLUMNS> {
     /// Parse a shipped file: `#` lines, one header line, then `wavelength_nm,value,…`; further
     /// columns are left out.
-    pub fn parse(csv: &str) -> Self {
+    pub(super) fn parse(csv: &str) -> Self {
         let mut table = Self { wavelength: Vec::new(), value: Vec::new() };
         for line in csv.lines().filter(|line| !line.starts_with('#')) {
             let mut numbers = line.split(',').map_while(|cell| cell.trim().parse::<f64>().ok());
@@ -26,12 +26,12 @@ impl<const COLUMNS: usize> Tabulated<COLUMNS> {
     }
 
     /// First and last wavelength, metres.
-    pub fn range(&self) -> (f64, f64) {
+    pub(super) fn range(&self) -> (f64, f64) {
         (self.wavelength[0], self.wavelength[self.wavelength.len() - 1])
     }
 
     /// Linear interpolation; the end values hold beyond the ends.
-    pub fn at(&self, wavelength: f64) -> [f64; COLUMNS] {
+    pub(super) fn at(&self, wavelength: f64) -> [f64; COLUMNS] {
         let (index, fraction) = bracket(&self.wavelength, wavelength);
         let (low, high) =
             (self.value[index], self.value[(index + 1).min(self.wavelength.len() - 1)]);

@@ -37,7 +37,7 @@ const MOST_AZIMUTHS: usize = 13;
 const SAME: f64 = 1e-6;
 
 /// What two tables share: wavelengths, azimuths, and the errors there.
-pub struct Shared {
+pub(super) struct Shared {
     pub wavelengths: usize,
     pub azimuths: usize,
     pub bands: Vec<BandReport>,
@@ -51,7 +51,7 @@ struct Pair {
 }
 
 /// Compare two tables wherever both have values.
-pub fn shared(test: &PhaseTable, reference: &PhaseTable) -> Shared {
+pub(super) fn shared(test: &PhaseTable, reference: &PhaseTable) -> Shared {
     let slabs = common_slabs(test, reference);
     let azimuths = common_azimuths(test, reference);
     let mut pairs: Vec<(&'static str, Vec<Pair>)> = Vec::new();

@@ -1,13 +1,14 @@
 //! The curves of the page: data for uPlot, and the polar view as SVG.
 
 use super::{Case, CaseReport, Curve};
+use crate::math::digits::to_digits;
 use crate::phase_table::PhaseTable;
 use maud::{Markup, html};
 use serde_json::{Value, json};
 
 /// Curves of a case on the angles of the reference: all methods and polarisations; then, if there
 /// are any, the single orders.
-pub fn charts(case: &Case, report: &CaseReport) -> Vec<Value> {
+pub(super) fn charts(case: &Case, report: &CaseReport) -> Vec<Value> {
     let wavelength = report.wavelength_nm * 1e-9;
     let scaled = |table: &PhaseTable| Curve::relative_to(table, &case.reference.table, wavelength);
     let theta = scaled(&case.reference.table).theta;
@@ -51,11 +52,11 @@ const SMALLEST: f64 = 1e-8;
 
 /// Five digits are more than a screen shows.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
+    to_digits(value, 5)
 }
 
 /// Polar view on a log scale: the reference above the axis, the first test below.
-pub fn polar(case: &Case, report: &CaseReport) -> Markup {
+pub(super) fn polar(case: &Case, report: &CaseReport) -> Markup {
     const SIZE: f64 = 460.0;
     const DECADES: f64 = 6.0;
     let wavelength = report.wavelength_nm * 1e-9;

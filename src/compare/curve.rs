@@ -60,7 +60,7 @@ impl Curve {
 }
 
 /// The slab of the wavelength nearest to `wavelength` (metres).
-pub fn nearest(table: &PhaseTable, wavelength: f64) -> Option<&Slab> {
+pub(super) fn nearest(table: &PhaseTable, wavelength: f64) -> Option<&Slab> {
     table.slabs.iter().min_by(|a, b| {
         (a.wavelength - wavelength).abs().total_cmp(&(b.wavelength - wavelength).abs())
     })

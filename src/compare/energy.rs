@@ -1,7 +1,7 @@
 //! Where the light went: cross-sections, and power by fate where rays were counted.
 
 use super::curve::nearest;
-use crate::phase_table::PhaseTable;
+use crate::phase_table::{EnergyBudget, PhaseTable};
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -16,21 +16,7 @@ pub struct EnergyReport {
     pub asymmetry: f64,
     /// Rays: shares of the power that met the particle.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub fates: Option<Fates>,
-}
-
-/// Power by fate, as shares of what met the particle.
-#[derive(Clone, Debug, Serialize)]
-pub struct Fates {
-    /// Left after as many chords.
-    pub left_by_order: Vec<f64>,
-    pub absorbed: f64,
-    /// Still inside, totally reflected.
-    pub totally_reflected: f64,
-    /// Still inside, beyond the last order.
-    pub truncated: f64,
-    /// Missing to 1.
-    pub residual: f64,
+    pub fates: Option<EnergyBudget>,
 }
 
 impl EnergyReport {
@@ -44,13 +30,7 @@ impl EnergyReport {
             q_ext: slab.extinction_cross_section / area,
             q_abs: (slab.extinction_cross_section - slab.scattering_cross_section) / area,
             asymmetry: slab.asymmetry,
-            fates: slab.energy.as_ref().map(|budget| Fates {
-                left_by_order: budget.left_by_order.clone(),
-                absorbed: budget.absorbed,
-                totally_reflected: budget.totally_reflected,
-                truncated: budget.truncated,
-                residual: budget.residual,
-            }),
+            fates: slab.energy.clone(),
         })
     }
 }

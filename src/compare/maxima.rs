@@ -43,7 +43,7 @@ const RISE: f64 = 1.1;
 const LEAST: f64 = 0.02;
 
 /// Pair the maxima of two curves of drops with this size parameter (the smaller one) and index.
-pub fn maxima(test: &Curve, reference: &Curve, size_parameter: f64, index: f64) -> Maxima {
+pub(super) fn maxima(test: &Curve, reference: &Curve, size_parameter: f64, index: f64) -> Maxima {
     let ripple = Ripple { size_parameter, dark_band: dark_band(index) };
     let truth = peaks(reference, &ripple);
     let names = names(&truth, index);
@@ -79,7 +79,7 @@ fn spacing(peaks: &[f64], i: usize) -> f64 {
 }
 
 /// Size parameter at a wavelength of whichever drop is smaller: its ripple is the coarser one.
-pub fn size_parameter(test: &PhaseTable, reference: &PhaseTable, wavelength: f64) -> f64 {
+pub(super) fn size_parameter(test: &PhaseTable, reference: &PhaseTable, wavelength: f64) -> f64 {
     TAU * test.header.radius.min(reference.header.radius) / wavelength
 }
 

@@ -101,8 +101,8 @@ fn integral(axes: &Axes, values: &[f64], weight: impl Fn(f64) -> f64) -> f64 {
 
 impl Averaged {
     /// P11 of a curve at any θ (radians), linear between the samples.
-    pub fn at(&self, curve: &Curve, element: usize, theta: f64) -> f64 {
-        let values = &curve.elements[element];
+    pub(super) fn p11(&self, curve: &Curve, theta: f64) -> f64 {
+        let values = &curve.elements[0];
         let high = self.theta.partition_point(|t| *t < theta).clamp(1, self.theta.len() - 1);
         let (low_theta, high_theta) = (self.theta[high - 1], self.theta[high]);
         let t = ((theta - low_theta) / (high_theta - low_theta)).clamp(0.0, 1.0);

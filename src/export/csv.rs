@@ -1,6 +1,7 @@
 //! Comma-separated values: the mean over azimuth, or every sample.
 
 use super::average::{Averaged, ELEMENTS};
+use crate::math::digits::to_digits;
 use crate::phase_table::{PhaseTable, Quantity};
 use std::fmt::Write;
 
@@ -56,6 +57,7 @@ pub fn every_sample(table: &PhaseTable) -> String {
     text
 }
 
+/// Free of what the conversion of units leaves in the last digits.
 fn tidy(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
+    to_digits(value, 10)
 }

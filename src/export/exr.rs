@@ -6,7 +6,7 @@
 //! scan lines (OpenEXR file layout, openexr.com/en/latest/OpenEXRFileLayout.html).
 
 use super::ExportError;
-use super::strip::Colours;
+use super::colours::Colours;
 use crate::color::xyz_to_linear_srgb;
 use crate::phase_table::PhaseTable;
 use rayon::prelude::*;

@@ -35,8 +35,8 @@ pub fn spectral_table(averaged: &Averaged) -> String {
 }
 
 /// `tabphase.txt`: per wavelength a line `wavelength_nm: v1, v2, …` with `count` values uniform in
-/// cos θ from −1 to +1, each the mean over its cell, so that the sum keeps
-/// its power where the curve is narrower than the grid.
+/// cos θ from −1 to +1, each the mean over its cell, so that the sum keeps its power where the curve
+/// is narrower than the grid.
 pub fn tabphase(averaged: &Averaged, count: usize) -> String {
     let count = count.max(2);
     let mut text = format!(
@@ -50,7 +50,7 @@ pub fn tabphase(averaged: &Averaged, count: usize) -> String {
                 let middle = -1.0 + step * i as f64;
                 let (low, high) = ((middle - 0.5 * step).max(-1.0), (middle + 0.5 * step).min(1.0));
                 let at = |k: usize| low + (high - low) * (k as f64 + 0.5) / PER_CELL as f64;
-                let sum: f64 = (0..PER_CELL).map(|k| averaged.at(curve, 0, at(k).acos())).sum();
+                let sum: f64 = (0..PER_CELL).map(|k| averaged.p11(curve, at(k).acos())).sum();
                 format!("{:.7e}", sum / PER_CELL as f64)
             })
             .collect();

@@ -6,11 +6,15 @@
 //! share is written into the file.
 
 pub mod average;
+mod colours;
 pub mod csv;
-pub mod databases;
+mod database;
+pub mod eradiate;
 pub mod exr;
-pub mod legendre;
+mod legendre;
+pub mod libradtran;
 pub mod mitsuba;
+pub mod sasktran2;
 pub mod strip;
 
 use crate::color::ColorError;

@@ -3,10 +3,11 @@
 //! Chunks of a slab are rounded, shuffled and deflated on all cores and then handed to the library
 //! in a fixed order, so that the file does not depend on which core was faster.
 
+use super::TableError;
 use super::chunk::{ChunkEncoder, encode_and_write, encoders};
-use super::raw::{Chunking, Kind, NewDataset, NewFile};
-use super::schema::{Dimensions, chunk_shape, values_name};
-use super::{TableError, WriteOptions};
+use super::output::WriteOptions;
+use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
+use super::schema::{Dimensions, chunk_corners, chunk_shape, values_name};
 use crate::phase_table::{Quantity, Slab, TableHeader};
 use ndarray::{Array2, ArrayView2};
 
@@ -138,11 +139,7 @@ impl Layout {
 
     /// First row and column of every chunk of a slab's face.
     fn corners(&self) -> Vec<(usize, usize)> {
-        let columns = (0..self.phi).step_by(self.columns);
-        (0..self.theta)
-            .step_by(self.rows)
-            .flat_map(|row| columns.clone().map(move |column| (row, column)))
-            .collect()
+        chunk_corners((self.theta, self.phi), (self.rows, self.columns))
     }
 
     fn write_values(

@@ -2,9 +2,9 @@
 //! scales, so that the same readers open them.
 
 use super::TableError;
-use super::raw::{Kind, NewFile};
+use super::output::{Output, WriteOptions};
+use super::raw_write::Kind;
 use super::schema::scale;
-use super::writer::{Output, WriteOptions};
 use std::path::Path;
 
 /// One axis.
@@ -38,7 +38,7 @@ pub fn write_diagram(
     let bytes = values.iter().map(|v| 4 * v.values.len() as u64).sum();
     let options = WriteOptions { overwrite, ..WriteOptions::default() };
     let output = Output::start(path, bytes, &options)?;
-    let file = NewFile::create(output.pending.path(), path)?;
+    let file = output.create()?;
     for (name, text) in attributes {
         file.attribute(name, text)?;
     }

@@ -50,9 +50,11 @@ mod diagram;
 mod heap;
 mod literal;
 mod netcdf;
-mod raw;
+mod output;
+mod raw_attribute;
+mod raw_id;
 mod raw_read;
-mod raw_text;
+mod raw_write;
 mod reader;
 mod record;
 mod schema;
@@ -60,17 +62,17 @@ mod space;
 mod sweep;
 mod writer;
 
-pub use crate::pending_file::remove_all_pending as remove_temporaries;
 pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
 pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
+pub use output::WriteOptions;
 pub use reader::{TableReader, read};
-pub use schema::{FORMAT, FORMAT_VERSION, SWEEP_FORMAT};
+pub use schema::FORMAT_VERSION;
 pub use space::{available_bytes, estimate_bytes};
-pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter};
-pub use writer::{TableWriter, WriteOptions, write};
+pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter, position_of};
+pub use writer::{TableWriter, write};
 
 use crate::phase_table::InvalidTable;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What went wrong with a table or its file: which one, what, and what would do.
 #[derive(Debug, thiserror::Error)]
@@ -78,7 +80,7 @@ pub enum TableError {
     #[error("{}: the file exists; choose another name or ask to overwrite it (--overwrite)", path.display())]
     Exists { path: PathBuf },
     #[error("{}: the table needs up to {} but the disk has {} free; take fewer angles or wavelengths",
-        path.display(), human_bytes(*needed), human_bytes(*available))]
+        path.display(), decimal_bytes(*needed), decimal_bytes(*available))]
     NoSpace { path: PathBuf, needed: u64, available: u64 },
     #[error("{}: {source}", path.display())]
     Io { path: PathBuf, source: std::io::Error },
@@ -107,8 +109,8 @@ impl TableError {
     }
 }
 
-/// A number of bytes for people: `3.4 GB`.
-pub fn human_bytes(bytes: u64) -> String {
+/// A number of bytes on a disk for people, in powers of 1000 as disks are labelled: `3.4 GB`.
+pub fn decimal_bytes(bytes: u64) -> String {
     const UNITS: [&str; 7] = ["bytes", "kB", "MB", "GB", "TB", "PB", "EB"];
     let mut value = bytes as f64;
     let mut unit = 0;
@@ -119,13 +121,14 @@ pub fn human_bytes(bytes: u64) -> String {
     if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
 }
 
-/// What the HDF5 library says, with the system's reason (`No space left on device`) where it knows.
-fn library_message(error: &::hdf5::Error) -> String {
-    match error.stack() {
-        Some(stack) => match stack.detail() {
-            Some(detail) if !detail.is_empty() => format!("{} ({detail})", stack.description()),
-            _ => stack.description().to_string(),
-        },
-        None => error.to_string(),
-    }
+fn damaged(path: &Path, message: &str) -> TableError {
+    TableError::Damaged { path: path.to_path_buf(), message: message.into() }
+}
+
+fn foreign(path: &Path, message: &str) -> TableError {
+    TableError::Foreign { path: path.to_path_buf(), message: message.into() }
+}
+
+fn invalid(field: &str, value: impl ToString, accepted: &str) -> TableError {
+    TableError::Invalid { field: field.into(), value: value.to_string(), accepted: accepted.into() }
 }

@@ -1,8 +1,8 @@
 //! Plain netCDF-4 files for other programs: dimensions, variables, attributes as they are given.
 
-use super::raw::{Kind, NewDataset, NewFile};
-use super::writer::{Output, invalid};
-use super::{TableError, WriteOptions};
+use super::output::{Output, WriteOptions};
+use super::raw_write::{Kind, NewDataset, NewFile};
+use super::{TableError, invalid};
 use std::path::Path;
 
 /// Values of a variable, last dimension fastest.
@@ -39,7 +39,7 @@ pub struct NetcdfFile {
 pub fn write_netcdf(path: &Path, content: &NetcdfFile, overwrite: bool) -> Result<(), TableError> {
     let options = WriteOptions { overwrite, ..WriteOptions::default() };
     let output = Output::start(path, 0, &options)?;
-    let file = NewFile::create(output.pending.path(), path)?;
+    let file = output.create()?;
     content.attributes.iter().try_for_each(|(name, text)| file.attribute(name, text))?;
 
     // Dimensions first, with their coordinate variable where there is one.
@@ -47,13 +47,19 @@ pub fn write_netcdf(path: &Path, content: &NetcdfFile, overwrite: bool) -> Resul
     for (name, length) in &content.dimensions {
         let is_coordinate = |v: &&NetcdfVariable| v.name == *name && v.dimensions == [name.clone()];
         let scale = match content.variables.iter().find(is_coordinate) {
-            Some(variable) => write_variable(&file, variable, &[*length as u64])?,
-            None => file.dataset(name, Kind::F32, &[*length as u64], None)?,
+            Some(variable) => {
+                let scale = write_variable(&file, variable, &[*length as u64])?;
+                scale.make_scale(name)?;
+                scale
+            }
+            None => {
+                let scale = file.dataset(name, Kind::F32, &[*length as u64], None)?;
+                // What netCDF-C calls a dimension that has no variable.
+                let label = "This is a netCDF dimension but not a netCDF variable.";
+                scale.make_scale(&format!("{label}{length:10}"))?;
+                scale
+            }
         };
-        let bare = !content.variables.iter().any(|v| is_coordinate(&v));
-        // What netCDF-C calls a dimension that has no variable.
-        let label = format!("This is a netCDF dimension but not a netCDF variable.{length:10}");
-        scale.make_scale(if bare { &label } else { name })?;
         scales.push((name, scale));
     }
     for variable in &content.variables {

@@ -1,13 +1,13 @@
 //! Reading through the HDF5 C library, with every claim of the file checked before it is believed.
 
-use super::TableError;
 use super::heap::Heaps;
-use super::raw_text::text_attribute;
+use super::raw_id::{Id, done, failure, owned};
+use super::{TableError, damaged, foreign, raw_attribute};
 use hdf5::globals::{H5P_FILE_ACCESS, H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT, H5T_NATIVE_UINT8};
 use hdf5::sync::sync;
-use hdf5_sys::h5::{HADDR_UNDEF, herr_t};
+use hdf5_sys::h5::HADDR_UNDEF;
 use hdf5_sys::h5i::hid_t;
-use hdf5_sys::{h5a, h5d, h5f, h5p, h5s, h5t};
+use hdf5_sys::{h5d, h5f, h5p, h5s, h5t};
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -15,16 +15,6 @@ use std::ptr;
 
 /// Deflate shortens nothing by more than this factor (zlib's technical notes).
 const MOST_DEFLATED: u64 = 1032;
-
-#[derive(Debug)]
-pub(super) struct Id(pub hid_t, unsafe extern "C" fn(hid_t) -> herr_t);
-
-impl Drop for Id {
-    fn drop(&mut self) {
-        // SAFETY: the identifier is valid until here and closed once.
-        sync(|| unsafe { (self.1)(self.0) });
-    }
-}
 
 /// A file open for reading.
 #[derive(Debug)]
@@ -85,8 +75,8 @@ impl OpenFile {
             // SAFETY: a C string and a property list of our own. A file under its final name is
             // whole and stays as it is; locks, which network disks may lack, are not needed.
             let access = owned(path, h5p::H5Pcreate(*H5P_FILE_ACCESS), h5p::H5Pclose)?;
-            done(path, h5p::H5Pset_file_locking(access.0, 0, 1))?;
-            let id = h5f::H5Fopen(name.as_ptr(), h5f::H5F_ACC_RDONLY, access.0);
+            done(path, h5p::H5Pset_file_locking(access.id, 0, 1))?;
+            let id = h5f::H5Fopen(name.as_ptr(), h5f::H5F_ACC_RDONLY, access.id);
             owned(path, id, h5f::H5Fclose)
         })?;
         let heaps = Heaps::new(file);
@@ -95,24 +85,12 @@ impl OpenFile {
 
     /// A text attribute of the file; `None` where there is none.
     pub fn text(&self, name: &str) -> Result<Option<String>, TableError> {
-        text_attribute(&self.path, &self.heaps, self.id.0, name)
+        raw_attribute::text(&self.path, &self.heaps, self.id.id, name)
     }
 
     /// A numeric attribute of the file; `None` where there is none.
     pub fn number(&self, name: &str) -> Result<Option<f64>, TableError> {
-        let path = &self.path;
-        let Some(attribute) = attribute(path, self.id.0, name)? else { return Ok(None) };
-        sync(|| unsafe {
-            // SAFETY: identifiers are checked; the attribute has one value, checked.
-            let space = owned(path, h5a::H5Aget_space(attribute.0), h5s::H5Sclose)?;
-            if h5s::H5Sget_simple_extent_npoints(space.0) != 1 {
-                return Err(damaged(path, &format!("attribute {name} is not one number")));
-            }
-            let mut value = 0f64;
-            let status = h5a::H5Aread(attribute.0, f64::kind(), (&raw mut value).cast::<c_void>());
-            done(path, status)?;
-            Ok(Some(value))
-        })
+        raw_attribute::number(&self.path, self.id.id, name)
     }
 
     /// Open a dataset; `None` where there is none.
@@ -121,14 +99,14 @@ impl OpenFile {
         let c_name = CString::new(name).map_err(|_| damaged(path, "a name with a zero byte"))?;
         sync(|| unsafe {
             // SAFETY: C strings, checked identifiers, a buffer as long as the rank.
-            let exists = hdf5_sys::h5l::H5Lexists(self.id.0, c_name.as_ptr(), h5p::H5P_DEFAULT);
+            let exists = hdf5_sys::h5l::H5Lexists(self.id.id, c_name.as_ptr(), h5p::H5P_DEFAULT);
             if exists < 0 {
                 return Err(failure(path));
             }
             if exists == 0 {
                 return Ok(None);
             }
-            let id = h5d::H5Dopen2(self.id.0, c_name.as_ptr(), h5p::H5P_DEFAULT);
+            let id = h5d::H5Dopen2(self.id.id, c_name.as_ptr(), h5p::H5P_DEFAULT);
             let id = owned(path, id, h5d::H5Dclose)?;
             let shape = shape(path, &id)?;
             let most_bytes = self.length.saturating_mul(MOST_DEFLATED).saturating_add(1 << 20);
@@ -147,7 +125,7 @@ impl OpenFile {
 impl OpenDataset {
     /// A text attribute of the dataset.
     pub fn text(&self, name: &str) -> Result<Option<String>, TableError> {
-        text_attribute(&self.path, &self.heaps, self.id.0, name)
+        raw_attribute::text(&self.path, &self.heaps, self.id.id, name)
     }
 
     /// Read all values.
@@ -177,19 +155,20 @@ impl OpenDataset {
             let (file_space, memory_space) = if self.shape.is_empty() {
                 (None, None)
             } else {
-                let file = owned(&self.path, h5d::H5Dget_space(self.id.0), h5s::H5Sclose)?;
+                let file = owned(&self.path, h5d::H5Dget_space(self.id.id), h5s::H5Sclose)?;
                 let none = ptr::null();
                 let select = h5s::H5S_seloper_t::H5S_SELECT_SET;
                 let (start, size) = (start.as_ptr(), count.as_ptr());
-                let status = h5s::H5Sselect_hyperslab(file.0, select, start, none, size, none);
+                let status = h5s::H5Sselect_hyperslab(file.id, select, start, none, size, none);
                 done(&self.path, status)?;
                 let memory = h5s::H5Screate_simple(count.len() as c_int, size, none);
                 (Some(file), Some(owned(&self.path, memory, h5s::H5Sclose)?))
             };
-            let space = |id: &Option<Id>| id.as_ref().map_or(h5s::H5S_ALL, |id| id.0);
+            let space = |id: &Option<Id>| id.as_ref().map_or(h5s::H5S_ALL, |id| id.id);
             let (memory, file) = (space(&memory_space), space(&file_space));
             let buffer = values.as_mut_ptr().cast::<c_void>();
-            let status = h5d::H5Dread(self.id.0, T::kind(), memory, file, h5p::H5P_DEFAULT, buffer);
+            let status =
+                h5d::H5Dread(self.id.id, T::kind(), memory, file, h5p::H5P_DEFAULT, buffer);
             done(&self.path, status)
         })?;
         Ok(values)
@@ -204,18 +183,18 @@ impl OpenDataset {
         sync(|| unsafe {
             // SAFETY: the type is that of strings of variable length, checked; the buffer has a
             // pointer for each; what the library allocated goes back to it after copying.
-            let kind = owned(path, h5d::H5Dget_type(self.id.0), h5t::H5Tclose)?;
-            if h5t::H5Tis_variable_str(kind.0) <= 0 {
+            let kind = owned(path, h5d::H5Dget_type(self.id.id), h5t::H5Tclose)?;
+            if h5t::H5Tis_variable_str(kind.id) <= 0 {
                 return Err(bad());
             }
             // Contiguous values have a place; others may lie anywhere.
-            let place = h5d::H5Dget_offset(self.id.0);
-            let bytes = h5d::H5Dget_storage_size(self.id.0);
+            let place = h5d::H5Dget_offset(self.id.id);
+            let bytes = h5d::H5Dget_storage_size(self.id.id);
             let place = (place != HADDR_UNDEF).then_some((place, bytes));
             self.heaps.check(place).map_err(|message| damaged(path, &message))?;
             let mut texts: Vec<*mut c_char> = vec![ptr::null_mut(); count];
             let (all, data) = (h5s::H5S_ALL, texts.as_mut_ptr().cast::<c_void>());
-            let status = h5d::H5Dread(self.id.0, kind.0, all, all, h5p::H5P_DEFAULT, data);
+            let status = h5d::H5Dread(self.id.id, kind.id, all, all, h5p::H5P_DEFAULT, data);
             let copy = |text: *mut c_char| {
                 if text.is_null() {
                     return String::new();
@@ -251,32 +230,17 @@ impl OpenDataset {
 /// SAFETY: the lock is held, `id` is a dataset.
 unsafe fn shape(path: &Path, id: &Id) -> Result<Vec<u64>, TableError> {
     unsafe {
-        let space = owned(path, h5d::H5Dget_space(id.0), h5s::H5Sclose)?;
-        let rank = h5s::H5Sget_simple_extent_ndims(space.0);
+        let space = owned(path, h5d::H5Dget_space(id.id), h5s::H5Sclose)?;
+        let rank = h5s::H5Sget_simple_extent_ndims(space.id);
         if rank < 0 {
             return Err(failure(path));
         }
         let mut shape = vec![0; rank as usize];
-        if h5s::H5Sget_simple_extent_dims(space.0, shape.as_mut_ptr(), ptr::null_mut()) < 0 {
+        if h5s::H5Sget_simple_extent_dims(space.id, shape.as_mut_ptr(), ptr::null_mut()) < 0 {
             return Err(failure(path));
         }
         Ok(shape)
     }
-}
-
-pub(super) fn attribute(path: &Path, object: hid_t, name: &str) -> Result<Option<Id>, TableError> {
-    let c_name = CString::new(name).map_err(|_| damaged(path, "a name with a zero byte"))?;
-    sync(|| unsafe {
-        // SAFETY: C string, open object.
-        match h5a::H5Aexists(object, c_name.as_ptr()) {
-            0 => Ok(None),
-            exists if exists < 0 => Err(failure(path)),
-            _ => {
-                let id = h5a::H5Aopen(object, c_name.as_ptr(), h5p::H5P_DEFAULT);
-                owned(path, id, h5a::H5Aclose).map(Some)
-            }
-        }
-    })
 }
 
 /// The eight bytes that every HDF5 file begins with.
@@ -291,31 +255,4 @@ fn check_signature(path: &Path, mut file: &File) -> Result<(), TableError> {
         }
         Err(source) => Err(TableError::Io { path: path.to_path_buf(), source }),
     }
-}
-
-pub(super) fn owned(
-    path: &Path,
-    id: hid_t,
-    close: unsafe extern "C" fn(hid_t) -> herr_t,
-) -> Result<Id, TableError> {
-    if id < 0 { Err(failure(path)) } else { Ok(Id(id, close)) }
-}
-
-pub(super) fn done(path: &Path, status: herr_t) -> Result<(), TableError> {
-    if status < 0 { Err(failure(path)) } else { Ok(()) }
-}
-
-fn failure(path: &Path) -> TableError {
-    match hdf5::Error::query() {
-        Ok(error) => damaged(path, &super::library_message(&error)),
-        Err(_) => damaged(path, "the HDF5 library gives no reason"),
-    }
-}
-
-pub(super) fn damaged(path: &Path, message: &str) -> TableError {
-    TableError::Damaged { path: path.to_path_buf(), message: message.into() }
-}
-
-pub(super) fn foreign(path: &Path, message: &str) -> TableError {
-    TableError::Foreign { path: path.to_path_buf(), message: message.into() }
 }

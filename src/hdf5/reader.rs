@@ -1,12 +1,11 @@
 //! Reading a table, whole or wavelength by wavelength.
 
-use super::TableError;
-use super::raw_read::{OpenFile, damaged, foreign};
+use super::raw_read::{OpenDataset, OpenFile};
 use super::record::{ENERGY, PLAIN, Record};
 use super::schema::{
     ELEMENTS, FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name,
 };
-use super::writer::invalid;
+use super::{TableError, damaged, foreign, invalid};
 use crate::phase_table::{
     Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
 };
@@ -182,7 +181,11 @@ pub(super) fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
         .ok_or_else(|| unknown("forward_peak", &peak_text))?;
 
     let axes = Axes {
-        wavelength: read_line(file, "wavelength_nm")?.iter().map(|nm| nm * 1e-9).collect(),
+        wavelength: coordinate(file, "wavelength_nm")?
+            .read::<f64>()?
+            .iter()
+            .map(|nm| nm * 1e-9)
+            .collect(),
         theta: read_angles(file, "theta")?,
         phi: read_angles(file, "phi")?,
     };
@@ -200,19 +203,19 @@ pub(super) fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
     })
 }
 
-/// A coordinate variable.
-pub(super) fn read_line(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
+/// A coordinate variable, not read yet.
+pub(super) fn coordinate(file: &OpenFile, name: &str) -> Result<OpenDataset, TableError> {
     let data = file.required(name)?;
     if data.shape.len() != 1 {
         return Err(damaged(&file.path, &format!("{name} is not one-dimensional")));
     }
-    data.read::<f64>()
+    Ok(data)
 }
 
 /// Degrees to radians; 180° and 360° become π and 2π exactly.
 fn read_angles(file: &OpenFile, name: &str) -> Result<Vec<f64>, TableError> {
     use std::f64::consts::PI;
-    Ok(read_line(file, name)?.iter().map(|degrees| degrees / 180.0 * PI).collect())
+    Ok(coordinate(file, name)?.read::<f64>()?.iter().map(|degrees| degrees / 180.0 * PI).collect())
 }
 
 /// A scalar variable; NaN where it is an axis of a sweep.
@@ -246,58 +249,37 @@ fn check_shapes(file: &OpenFile, header: &TableHeader) -> Result<bool, TableErro
     Ok(file.dataset("caustic_order")?.is_some())
 }
 
-/// The records of one table: `leading` is its place in a sweep.
+/// One number per wavelength of the table at `leading`, its place in a sweep; per wavelength and
+/// order where `orders` are given.
+fn read_field(
+    file: &OpenFile,
+    name: &str,
+    leading: &[u64],
+    wavelengths: usize,
+    orders: Option<u64>,
+) -> Result<Vec<f64>, TableError> {
+    let (mut start, mut count) = (leading.to_vec(), vec![1; leading.len()]);
+    start.push(0);
+    count.push(wavelengths as u64);
+    start.extend(orders.map(|_| 0));
+    count.extend(orders);
+    file.required(name)?.read_block::<f64>(&start, &count)
+}
+
+/// The records of the table at `leading`, its place in a sweep.
 pub(super) fn read_records(
     file: &OpenFile,
     leading: &[u64],
     wavelengths: usize,
 ) -> Result<Vec<Record>, TableError> {
-    let line = |name: &str, length: u64, more: Option<u64>| -> Result<Vec<f64>, TableError> {
-        let (mut start, mut count) = (leading.to_vec(), vec![1; leading.len()]);
-        start.push(0);
-        count.push(length);
-        start.extend(more.map(|_| 0));
-        count.extend(more);
-        file.required(name)?.read_block::<f64>(&start, &count)
-    };
-    let length = wavelengths as u64;
-    let plain = PLAIN.map(|(name, ..)| line(name, length, None));
+    let plain = PLAIN.map(|(name, ..)| read_field(file, name, leading, wavelengths, None));
     let [scattering, extinction, asymmetry, real, imag, sum, share, error, by_band] = plain;
     let (scattering, extinction, asymmetry) = (scattering?, extinction?, asymmetry?);
-    let (real, imag, sum, share) = (real?, imag?, sum?, share?);
-    let error = error?;
+    let (real, imag, sum, share, error) = (real?, imag?, sum?, share?, error?);
     // tables of older versions have none
     let by_band = match file.dataset("error_estimate_by_band")? {
         Some(_) => by_band?,
         None => vec![f64::NAN; wavelengths],
-    };
-
-    let energy = if file.dataset("energy_absorbed")?.is_some() {
-        let [absorbed, reflected, truncated, residual] =
-            ENERGY.map(|(name, ..)| line(name, length, None));
-        let (absorbed, reflected) = (absorbed?, reflected?);
-        let (truncated, residual) = (truncated?, residual?);
-        let orders = match file.dataset("order")? {
-            Some(order) => order.shape.first().copied().unwrap_or(0),
-            None => 0,
-        };
-        let left = match orders {
-            0 => Vec::new(),
-            orders => line("energy_left_by_order", length, Some(orders))?,
-        };
-        let orders = orders as usize;
-        let budget = |i: usize| {
-            (!absorbed[i].is_nan()).then(|| EnergyBudget {
-                left_by_order: left[i * orders..(i + 1) * orders].to_vec(),
-                absorbed: absorbed[i],
-                totally_reflected: reflected[i],
-                truncated: truncated[i],
-                residual: residual[i],
-            })
-        };
-        (0..wavelengths).map(budget).collect()
-    } else {
-        vec![None; wavelengths]
     };
     let record = |(i, energy)| Record {
         index: Complex64::new(real[i], imag[i]),
@@ -310,5 +292,41 @@ pub(super) fn read_records(
         error_by_band: by_band[i],
         energy,
     };
-    Ok(energy.into_iter().enumerate().map(record).collect())
+    let budgets = read_budgets(file, leading, wavelengths)?;
+    Ok(budgets.into_iter().enumerate().map(record).collect())
+}
+
+/// The energy budgets of the table at `leading`; none for wavelengths that are NaN there, or where
+/// the file has no budgets.
+fn read_budgets(
+    file: &OpenFile,
+    leading: &[u64],
+    wavelengths: usize,
+) -> Result<Vec<Option<EnergyBudget>>, TableError> {
+    if file.dataset("energy_absorbed")?.is_none() {
+        return Ok(vec![None; wavelengths]);
+    }
+    let fields = ENERGY.map(|(name, ..)| read_field(file, name, leading, wavelengths, None));
+    let [absorbed, reflected, truncated, residual] = fields;
+    let (absorbed, reflected) = (absorbed?, reflected?);
+    let (truncated, residual) = (truncated?, residual?);
+    let orders = match file.dataset("order")? {
+        Some(order) => order.shape.first().copied().unwrap_or(0),
+        None => 0,
+    };
+    let left = match orders {
+        0 => Vec::new(),
+        _ => read_field(file, "energy_left_by_order", leading, wavelengths, Some(orders))?,
+    };
+    let orders = orders as usize;
+    let budget = |i: usize| {
+        (!absorbed[i].is_nan()).then(|| EnergyBudget {
+            left_by_order: left[i * orders..(i + 1) * orders].to_vec(),
+            absorbed: absorbed[i],
+            totally_reflected: reflected[i],
+            truncated: truncated[i],
+            residual: residual[i],
+        })
+    };
+    Ok((0..wavelengths).map(budget).collect())
 }

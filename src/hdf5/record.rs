@@ -4,7 +4,7 @@
 //! known only then.
 
 use super::TableError;
-use super::raw::{Kind, NewDataset, NewFile};
+use super::raw_write::{Kind, NewDataset, NewFile};
 use crate::phase_table::{EnergyBudget, Slab};
 use num_complex::Complex64;
 

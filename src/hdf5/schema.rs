@@ -2,7 +2,9 @@
 
 use super::TableError;
 use super::chunk::{ChunkEncoder, encode_and_write, encoders};
-use super::raw::{Chunking, Kind, NewDataset, NewFile};
+use super::output::WriteOptions;
+use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
+use crate::math::digits::to_digits;
 use crate::phase_table::{Axes, ForwardPeak, Quantity, TableHeader};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -54,6 +56,17 @@ pub(super) fn chunk_shape(theta: usize, phi: usize) -> (usize, usize) {
     let columns = parts(phi, CHUNK_BYTES / 4);
     let rows = parts(theta, CHUNK_BYTES / 4 / columns.max(1));
     (rows.max(1), columns.max(1))
+}
+
+/// First row and column of every chunk of a face of θ and φ.
+pub(super) fn chunk_corners(
+    (theta, phi): (usize, usize),
+    (rows, columns): (usize, usize),
+) -> Vec<(usize, usize)> {
+    (0..theta)
+        .step_by(rows)
+        .flat_map(|row| (0..phi).step_by(columns).map(move |column| (row, column)))
+        .collect()
 }
 
 /// The dimensions of a file and their coordinate variables.
@@ -111,10 +124,7 @@ impl Dimensions {
         let shape = [theta.len() as u64, phi.len() as u64];
         let chunking = Chunking { shape: vec![rows as u64, columns as u64], deflate: 1 };
         let data = file.dataset("solid_angle", Kind::F32, &shape, Some(&chunking))?;
-        let corners: Vec<(usize, usize)> = (0..theta.len())
-            .step_by(rows)
-            .flat_map(|row| (0..phi.len()).step_by(columns).map(move |column| (row, column)))
-            .collect();
+        let corners = chunk_corners((theta.len(), phi.len()), (rows, columns));
         let encode = |encoder: &mut ChunkEncoder, &(row, column): &(usize, usize)| {
             encoder.values.clear();
             encoder.values.resize(rows * columns, 0.0);
@@ -161,7 +171,7 @@ pub(super) fn degree(radians: f64) -> f64 {
 
 /// Round to 13 significant digits where that changes the last bits only.
 pub(super) fn tidy(value: f64) -> f64 {
-    let rounded = format!("{value:.12e}").parse().unwrap_or(value);
+    let rounded = to_digits(value, 13);
     if (rounded - value).abs() <= 4.0 * f64::EPSILON * value.abs() { rounded } else { value }
 }
 
@@ -170,7 +180,7 @@ pub(super) fn write_root(
     file: &NewFile,
     header: &TableHeader,
     format: &str,
-    options: &super::WriteOptions,
+    options: &WriteOptions,
 ) -> Result<(), TableError> {
     let title = match header.quantity {
         Quantity::PhaseFunction => "Phase function of a single particle",

@@ -1,13 +1,14 @@
 //! Many tables in one file: a sweep, with one more leading dimension per swept value.
 
 use super::body::Body;
-use super::raw::{Kind, NewDataset, NewFile};
-use super::raw_read::{OpenFile, damaged, foreign};
-use super::reader::{check_version, read_header, read_records, slab_at};
+use super::output::{Output, WriteOptions};
+use super::raw_read::OpenFile;
+use super::raw_write::{Kind, NewDataset, NewFile};
+use super::reader::{check_version, coordinate, read_header, read_records, slab_at};
 use super::record::{Record, write_records};
 use super::schema::{Dimensions, SWEEP_FORMAT, values_name, write_root};
-use super::writer::{Output, check_slab, invalid, write_circumstances};
-use super::{TableError, WriteOptions, estimate_bytes};
+use super::writer::{check_slab, write_circumstances};
+use super::{TableError, damaged, estimate_bytes, foreign, invalid};
 use crate::phase_table::{PhaseTable, Slab, TableHeader};
 use std::path::Path;
 
@@ -52,6 +53,17 @@ impl SweepAxis {
     }
 }
 
+/// Index per axis of a table by its number, in a sweep of this shape; the last axis is the fastest.
+pub fn position_of(number: usize, shape: &[usize]) -> Vec<usize> {
+    let mut rest = number;
+    let mut position = vec![0; shape.len()];
+    for (index, length) in position.iter_mut().zip(shape).rev() {
+        *index = rest % length;
+        rest /= length;
+    }
+    position
+}
+
 /// A sweep being written. Dropped before [`SweepWriter::finish`] it leaves nothing behind.
 pub struct SweepWriter {
     body: Body,
@@ -80,7 +92,7 @@ impl SweepWriter {
         let tables = shape.iter().fold(1u64, |product, &n| product.saturating_mul(n));
         let bytes = estimate_bytes(header).saturating_mul(tables);
         let output = Output::start(path, bytes, options)?;
-        let file = NewFile::create(output.pending.path(), path)?;
+        let file = output.create()?;
         write_root(&file, header, SWEEP_FORMAT, options)?;
         let names: Vec<&str> = axes.iter().map(SweepAxis::name).collect();
         file.attribute("sweep_axes", &names.join(" "))?;
@@ -270,10 +282,7 @@ impl SweepReader {
 }
 
 fn read_axis(file: &OpenFile, name: &str) -> Result<SweepAxis, TableError> {
-    let data = file.required(name)?;
-    if data.shape.len() != 1 {
-        return Err(damaged(&file.path, &format!("{name} is not one-dimensional")));
-    }
+    let data = coordinate(file, name)?;
     let values = match data.read_texts() {
         Ok(texts) => AxisValues::Texts(texts),
         Err(_) => AxisValues::Numbers(data.read::<f64>()?),

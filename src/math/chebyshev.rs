@@ -64,12 +64,6 @@ impl<const C: usize> Chebyshev<C> {
     pub fn truncate(&mut self, degree: usize) {
         self.coefficients.truncate(degree + 1);
     }
-
-    /// Size of the last coefficients of a channel: the error of interpolation.
-    pub fn tail(&self, channel: usize) -> f64 {
-        let count = self.coefficients.len();
-        self.coefficients[count.saturating_sub(2)..].iter().map(|row| row[channel].abs()).sum()
-    }
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 pub mod airy;
 pub mod chebyshev;
 pub mod cosine_series;
+pub mod digits;
 pub mod fused;
 pub mod gauss_legendre;
 pub mod half_turn;

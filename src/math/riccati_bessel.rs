@@ -48,7 +48,7 @@ impl Field for Complex64 {
 ///
 /// At `n = |z| + s` one step shrinks an error by `exp(-2√(2s/|z|))`; the product over `s` from 0
 /// to `S` is `exp(-(4√2/3) S^{3/2}/√|z|)`, which is 1e-26 for `S = 10 |z|^{1/3}`.
-pub fn downward_start(top: usize, modulus: f64) -> usize {
+fn downward_start(top: usize, modulus: f64) -> usize {
     top.max(modulus.ceil() as usize) + (10.0 * modulus.cbrt()).ceil() as usize + 50
 }
 

@@ -4,7 +4,7 @@
 //! books do, with (e, F', C') as ISO 7944 does. Two-term Cauchy `n = A + B/λ²` has two numbers, so
 //! it is fixed by index and Abbe number: `B = (n − 1)/(V (1/λ_F² − 1/λ_C²))`, `A = n − B/λ²`.
 
-use super::{Formula, Medium, MediumError};
+use super::{Formula, Medium, MediumError, invalid};
 use serde::{Deserialize, Serialize};
 
 /// Which lines an Abbe number is taken at.
@@ -69,11 +69,6 @@ impl Abbe {
 
     /// The two-term Cauchy formula that has this index and this Abbe number: A, and B in µm².
     pub fn to_cauchy(self, lines: AbbeLines) -> Result<[f64; 2], MediumError> {
-        let invalid = |field: &str, value: f64, accepted: &str| MediumError::Invalid {
-            field: field.into(),
-            value: value.to_string(),
-            accepted: accepted.into(),
-        };
         if !(self.index > 1.0 && self.index < 10.0) {
             return Err(invalid("abbe: index", self.index, "more than 1 and less than 10"));
         }
@@ -95,11 +90,7 @@ pub fn fit_cauchy(
     index: impl Fn(f64) -> Result<f64, MediumError>,
 ) -> Result<(Vec<f64>, f64), MediumError> {
     if !(1..=8).contains(&terms) {
-        return Err(MediumError::Invalid {
-            field: "terms of the Cauchy formula".into(),
-            value: terms.to_string(),
-            accepted: "1 to 8".into(),
-        });
+        return Err(invalid("terms of the Cauchy formula", terms, "1 to 8"));
     }
     // In u, which runs from -1 to 1 as 1/λ² does over the range, the sums are well conditioned.
     let (low, high) = (range.1.powi(-2), range.0.powi(-2));

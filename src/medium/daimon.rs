@@ -3,7 +3,7 @@
 //!
 //! Between the four temperatures n is interpolated by the parabola through the nearest three.
 
-use super::{Material, MediumError, library};
+use super::{Material, MediumError, invalid, library};
 use num_complex::Complex64;
 
 /// Water after Daimon & Masumura at one temperature.
@@ -21,11 +21,11 @@ impl Daimon {
         let (from, to) = (292.15, 297.15);
         // Degrees Celsius in, kelvin here: the sum may be off in the last bit.
         if !(from - 1e-9..=to + 1e-9).contains(&temperature) {
-            return Err(MediumError::Invalid {
-                field: "temperature_c".into(),
-                value: format!("{:.6}", temperature - 273.15),
-                accepted: "19 to 24 for water-daimon".into(),
-            });
+            return Err(invalid(
+                "temperature_c",
+                format!("{:.6}", temperature - 273.15),
+                "19 to 24 for water-daimon",
+            ));
         }
         nearest.sort_by(|a, b| (a.0 - temperature).abs().total_cmp(&(b.0 - temperature).abs()));
         nearest.truncate(3);

@@ -13,7 +13,7 @@
 //! | 8 | Retro | `(n² − 1)/(n² + 2) = C1 + C2 λ²/(λ² − C3) + C4 λ²` |
 //! | 9 | Exotic | `n² = C1 + C2/(λ² − C3) + C4 (λ − C5)/((λ − C5)² + C6)` |
 
-use super::MediumError;
+use super::{MediumError, invalid};
 
 /// A dispersion formula with its coefficients.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,14 +191,6 @@ fn check_coefficients(kind: Kind, coefficients: &[f64]) -> Result<(), MediumErro
         _ => (count % 2 == 1, "an odd number: the first one, then pairs"),
     };
     if fits { Ok(()) } else { Err(invalid("number of coefficients", count, accepted)) }
-}
-
-fn invalid(field: &str, value: impl ToString, accepted: &str) -> MediumError {
-    MediumError::Invalid {
-        field: field.into(),
-        value: value.to_string(),
-        accepted: accepted.into(),
-    }
 }
 
 #[cfg(test)]

@@ -15,7 +15,9 @@
 //! Data end somewhere. Beyond either end k falls to zero over one row's spacing, or follows the
 //! wing of a Lorentz band ([`Tails`]).
 
-use super::MediumError;
+use super::table::curve;
+use super::{MediumError, invalid};
+use crate::math::monotone::MonotoneCurve;
 use crate::math::principal_value::PiecewisePolynomial;
 use std::f64::consts::PI;
 
@@ -40,8 +42,7 @@ pub enum Between {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Absorption {
     wavelength: Vec<f64>,
-    k: Vec<f64>,
-    curve: crate::math::monotone::MonotoneCurve,
+    curve: MonotoneCurve,
     transform: PiecewisePolynomial,
 }
 
@@ -59,19 +60,15 @@ impl Absorption {
         between: Between,
     ) -> Result<Self, MediumError> {
         if let Some(bad) = k.iter().find(|k| **k < 0.0 || !k.is_finite()) {
-            return Err(MediumError::Invalid {
-                field: "k".into(),
-                value: bad.to_string(),
-                accepted: "0 or more".into(),
-            });
+            return Err(invalid("k", bad, "0 or more"));
         }
-        let curve = super::library::curve(wavelength, k)?;
+        let curve = curve(wavelength, k)?;
         let (mut omega, mut values) = by_frequency(wavelength, k);
         if tails == Tails::LorentzBand {
             extend(&mut omega, &mut values)?;
         }
         let transform = transform(&omega, &values, between);
-        Ok(Self { wavelength: wavelength.to_vec(), k: k.to_vec(), curve, transform })
+        Ok(Self { wavelength: wavelength.to_vec(), curve, transform })
     }
 
     /// k at a wavelength in metres; zero outside the data.
@@ -89,11 +86,6 @@ impl Absorption {
     /// First and last wavelength of the data, metres.
     pub fn range(&self) -> (f64, f64) {
         (self.wavelength[0], self.wavelength[self.wavelength.len() - 1])
-    }
-
-    /// Wavelengths (metres) and k of the rows.
-    pub fn rows(&self) -> (&[f64], &[f64]) {
-        (&self.wavelength, &self.k)
     }
 }
 
@@ -118,7 +110,7 @@ pub fn extinction_from_index(
     index_change: &[f64],
     between: Between,
 ) -> Result<Vec<f64>, MediumError> {
-    super::library::curve(wavelength, index_change)?;
+    curve(wavelength, index_change)?;
     let (omega, values) = by_frequency(wavelength, index_change);
     let transform = transform(&omega, &values, between);
     let at_row = |w: &f64| {
@@ -153,11 +145,11 @@ fn equal_step(wavelength: &[f64]) -> Result<f64, MediumError> {
     if count >= 3 && step > 0.0 && equal {
         return Ok(step);
     }
-    Err(MediumError::Invalid {
-        field: "spacing of the rows".into(),
-        value: "unequal".into(),
-        accepted: "equal steps of wavelength for the method maclaurin; analytic takes any".into(),
-    })
+    Err(invalid(
+        "spacing of the rows",
+        "unequal",
+        "equal steps of wavelength for the method maclaurin; analytic takes any",
+    ))
 }
 
 /// Adds the wings of a Lorentz band at both ends.
@@ -194,11 +186,11 @@ fn strongest_band(omega: &[f64], values: &[f64]) -> Result<(f64, f64), MediumErr
         (Some(a), None) => 2.0 * (omega[peak] - a),
         (None, Some(b)) => 2.0 * (b - omega[peak]),
         (None, None) => {
-            return Err(MediumError::Invalid {
-                field: "band tails".into(),
-                value: "k without a peak".into(),
-                accepted: "data that hold a band and at least one of its half heights".into(),
-            });
+            return Err(invalid(
+                "band tails",
+                "k without a peak",
+                "data that hold a band and at least one of its half heights",
+            ));
         }
     };
     Ok((omega[peak], width))

@@ -4,9 +4,8 @@
 
 use super::band_model::BandModel;
 use super::kramers_kronig::{Absorption, Tails};
-use super::table::{Table, Unit};
-use super::{Daimon, Dye, Formula, Material, Medium, MediumError, csv_table};
-use crate::math::monotone::MonotoneCurve;
+use super::table::{Table, Unit, curve};
+use super::{Daimon, Dye, Formula, Material, Medium, MediumError, csv_table, invalid};
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -179,14 +178,6 @@ fn from_table(name: &str, table: &Table) -> Result<Material, MediumError> {
     Material::from_tables(name, &table.source, n, Some(k))
 }
 
-pub(super) fn curve(x: &[f64], y: &[f64]) -> Result<MonotoneCurve, MediumError> {
-    MonotoneCurve::new(x.to_vec(), y.to_vec()).ok_or_else(|| MediumError::Invalid {
-        field: "table".into(),
-        value: format!("{} wavelengths, {} values", x.len(), y.len()),
-        accepted: "as many values as wavelengths, ascending, at least two".into(),
-    })
-}
-
 /// A dye by its canonical name: its absorption at fraction 1.
 pub(super) fn dye(name: &str) -> Result<Dye, MediumError> {
     if let Some(model) = BandModel::by_name(name) {
@@ -198,11 +189,7 @@ pub(super) fn dye(name: &str) -> Result<Dye, MediumError> {
         let source = table.source.clone();
         return Ok(Dye { name: name.into(), source, absorption });
     }
-    Err(MediumError::Invalid {
-        field: "solute".into(),
-        value: name.into(),
-        accepted: format!("rhodamine6g, {}", MODELS.join(", ")),
-    })
+    Err(invalid("solute", name, &format!("rhodamine6g, {}", MODELS.join(", "))))
 }
 
 /// Temperatures (kelvin) and formulas of Daimon & Masumura's water.

@@ -1,6 +1,6 @@
 //! A material by data: n from a formula or a table, k from a table or none.
 
-use super::{Formula, MediumError};
+use super::{Formula, MediumError, invalid};
 use crate::math::monotone::MonotoneCurve;
 use num_complex::Complex64;
 
@@ -74,11 +74,11 @@ impl Material {
         let (from, to) = curve.range();
         let range = (self.range.0.max(from), self.range.1.min(to));
         if range.0 >= range.1 {
-            return Err(MediumError::Invalid {
-                field: format!("{}: range of k", self.name),
-                value: format!("{} to {} nm", from * 1e9, to * 1e9),
-                accepted: "a range that overlaps that of n".into(),
-            });
+            return Err(invalid(
+                &format!("{}: range of k", self.name),
+                format!("{} to {} nm", from * 1e9, to * 1e9),
+                "a range that overlaps that of n",
+            ));
         }
         self.range = range;
         self.extinction = Some(curve);
@@ -98,11 +98,11 @@ impl Material {
         if n.is_finite() && n > 0.0 {
             Ok(Complex64::new(n, k))
         } else {
-            Err(MediumError::Invalid {
-                field: format!("index of {} at {} nm", self.name, wavelength * 1e9),
-                value: n.to_string(),
-                accepted: "a wavelength at which the formula gives a positive real index".into(),
-            })
+            Err(invalid(
+                &format!("index of {} at {} nm", self.name, wavelength * 1e9),
+                n,
+                "a wavelength at which the formula gives a positive real index",
+            ))
         }
     }
 }

@@ -14,9 +14,11 @@ pub mod kramers_kronig;
 mod library;
 mod material;
 mod refractive_index_info;
+mod resolve;
 mod sea_water;
 mod solution;
 mod spec;
+mod spec_keys;
 mod table;
 mod water;
 mod water_absorption;
@@ -28,7 +30,6 @@ pub use daimon::Daimon;
 pub use formula::Formula;
 pub use library::{LibraryEntry, list};
 pub use material::{Material, RealIndex};
-pub use refractive_index_info::read as read_yaml;
 pub use solution::{Dye, Solution};
 pub use spec::{MediumSpec, NamedSpec};
 pub use table::Table;
@@ -81,11 +82,11 @@ impl Medium {
         if is_plausible(index) {
             return Ok(index);
         }
-        Err(MediumError::Invalid {
-            field: format!("index of {} at {} nm", self.name(), nanometres(wavelength)),
-            value: format!("{:e} + {:e}i", index.re, index.im),
-            accepted: PLAUSIBLE_INDEX.into(),
-        })
+        Err(invalid(
+            &format!("index of {} at {} nm", self.name(), nanometres(wavelength)),
+            format!("{:e} + {:e}i", index.re, index.im),
+            PLAUSIBLE_INDEX,
+        ))
     }
 
     fn index_of_data(&self, wavelength: f64) -> Result<Complex64, MediumError> {
@@ -168,6 +169,14 @@ impl Medium {
             }
             _ => Ok(()),
         }
+    }
+}
+
+fn invalid(field: &str, value: impl ToString, accepted: &str) -> MediumError {
+    MediumError::Invalid {
+        field: field.into(),
+        value: value.to_string(),
+        accepted: accepted.into(),
     }
 }
 

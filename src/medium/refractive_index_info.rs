@@ -4,7 +4,7 @@
 //! The parser delivers events, one after another; nothing here recurses into what the file holds,
 //! aliases are refused and depth is bounded, so a hostile file ends in a message.
 
-use super::table::{Column, Table, TableBuilder, Unit, file_error};
+use super::table::{Column, Table, TableBuilder, Unit, file_error, name_of};
 use super::{Formula, Material, MediumError};
 use crate::math::monotone::MonotoneCurve;
 use saphyr_parser::{Event, Parser};
@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Material, MediumError> {
 /// Reads a material from text; `path` is for messages and, without its ending, the name.
 pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
     let entries = flatten(text, path)?;
-    let name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = name_of(path);
     let source = entries
         .iter()
         .find(|e| e.path == "REFERENCES")
@@ -84,13 +84,26 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
     }
 }
 
+/// A list or a table that the parser is in.
+enum Level {
+    /// With the number of elements so far.
+    List(usize),
+    /// With the key that waits for its value.
+    Map(Option<String>),
+}
+
+impl Level {
+    /// What leads to the present value.
+    fn key(&self) -> String {
+        match self {
+            Level::List(count) => (count - 1).to_string(),
+            Level::Map(key) => key.clone().unwrap_or_default(),
+        }
+    }
+}
+
 /// All scalars of the document with their paths.
 fn flatten(text: &str, path: &Path) -> Result<Vec<Entry>, MediumError> {
-    enum Level {
-        List(usize),
-        /// The key that waits for its value.
-        Map(Option<String>),
-    }
     let mut levels: Vec<Level> = Vec::new();
     let mut entries = Vec::new();
     let mut parser = Parser::new_from_str(text);
@@ -104,8 +117,8 @@ fn flatten(text: &str, path: &Path) -> Result<Vec<Entry>, MediumError> {
             event,
             Event::SequenceEnd | Event::MappingEnd | Event::StreamEnd | Event::DocumentEnd
         );
-        if value_comes && let Some(Level::List(index)) = levels.last_mut() {
-            *index += 1;
+        if value_comes && let Some(Level::List(count)) = levels.last_mut() {
+            *count += 1;
         }
         match event {
             Event::SequenceStart(..) | Event::MappingStart(..) if levels.len() >= DEEPEST => {
@@ -128,13 +141,7 @@ fn flatten(text: &str, path: &Path) -> Result<Vec<Entry>, MediumError> {
                     *key = Some(value.into_owned());
                     continue;
                 }
-                let keys: Vec<String> = levels
-                    .iter()
-                    .map(|level| match level {
-                        Level::List(index) => (index - 1).to_string(),
-                        Level::Map(key) => key.clone().unwrap_or_default(),
-                    })
-                    .collect();
+                let keys: Vec<String> = levels.iter().map(Level::key).collect();
                 entries.push(Entry { path: keys.join("."), value: value.into_owned(), line });
                 if let Some(Level::Map(key)) = levels.last_mut() {
                     *key = None;

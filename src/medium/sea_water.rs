@@ -4,7 +4,7 @@
 //! air at 15 °C, so that it can be compared with pure water. Its k is that of pure water: salts
 //! hardly absorb in the visible, dissolved matter and algae are not part of it.
 
-use super::{Formula, MediumError, check_range, water_absorption};
+use super::{Formula, MediumError, check_range, invalid, water_absorption};
 use num_complex::Complex64;
 
 /// Wavelengths of the formula, metres.
@@ -34,13 +34,10 @@ pub(super) fn check_conditions(temperature: f64, salinity: f64) -> Result<(), Me
     let slack = 1e-9;
     if !(-slack..=30.0 + slack).contains(&celsius) {
         let value = format!("{celsius:.6}");
-        let accepted = "0 to 30 for sea water".into();
-        return Err(MediumError::Invalid { field: "temperature_c".into(), value, accepted });
+        return Err(invalid("temperature_c", value, "0 to 30 for sea water"));
     }
     if !(0.0..=35.0).contains(&salinity) {
-        let value = salinity.to_string();
-        let accepted = "0 to 35".into();
-        return Err(MediumError::Invalid { field: "salinity_g_kg".into(), value, accepted });
+        return Err(invalid("salinity_g_kg", salinity, "0 to 35"));
     }
     Ok(())
 }

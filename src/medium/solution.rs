@@ -6,7 +6,7 @@
 //! solutions, where the dye displaces little of it.
 
 use super::kramers_kronig::Absorption;
-use super::{Medium, MediumError, check_range};
+use super::{Medium, MediumError, check_range, invalid};
 use num_complex::Complex64;
 
 /// A dye at fraction 1.
@@ -31,20 +31,16 @@ impl Solution {
     /// `fraction` from 0 to 1.
     pub fn new(dye: Dye, fraction: f64, host: Medium) -> Result<Self, MediumError> {
         if !(0.0..=1.0).contains(&fraction) {
-            return Err(MediumError::Invalid {
-                field: "fraction".into(),
-                value: fraction.to_string(),
-                accepted: "0 to 1 (0.01 is one per cent by volume)".into(),
-            });
+            return Err(invalid("fraction", fraction, "0 to 1 (0.01 is one per cent by volume)"));
         }
         let solution = Self { dye, fraction, host, dispersion: true };
         let (from, to) = solution.range();
         if from >= to {
-            return Err(MediumError::Invalid {
-                field: "solute".into(),
-                value: solution.dye.name,
-                accepted: "a dye whose wavelengths overlap those of the host".into(),
-            });
+            return Err(invalid(
+                "solute",
+                solution.dye.name,
+                "a dye whose wavelengths overlap those of the host",
+            ));
         }
         Ok(solution)
     }

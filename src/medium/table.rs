@@ -4,7 +4,8 @@
 //! negative; a file whose numbers only make sense in another unit than the declared one is refused
 //! rather than read a thousand times wrong.
 
-use super::MediumError;
+use super::{MediumError, invalid};
+use crate::math::monotone::MonotoneCurve;
 use std::path::Path;
 
 /// Optical data by wavelength in metres; a column that the file lacks is empty.
@@ -173,6 +174,17 @@ fn guess_unit(first: f64, last: f64) -> String {
     guess.map_or(String::new(), |u| format!(" (they look like {})", u.symbol()))
 }
 
+/// The curve through the rows of a column.
+pub(super) fn curve(x: &[f64], y: &[f64]) -> Result<MonotoneCurve, MediumError> {
+    MonotoneCurve::new(x.to_vec(), y.to_vec()).ok_or_else(|| {
+        invalid(
+            "table",
+            format!("{} wavelengths, {} values", x.len(), y.len()),
+            "as many values as wavelengths, ascending, at least two",
+        )
+    })
+}
+
 /// An error about a file.
 pub(super) fn file_error(
     path: &Path,
@@ -180,4 +192,9 @@ pub(super) fn file_error(
     message: impl Into<String>,
 ) -> MediumError {
     MediumError::File { path: path.to_path_buf(), line, message: message.into() }
+}
+
+/// What a medium of a file is called: the file's name without folder and ending.
+pub(super) fn name_of(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }

@@ -4,7 +4,7 @@
 //! The index is relative to vacuum. The formulation holds for -12 to 500 °C, up to 1060 kg/m³ and
 //! 0.2 to 1.1 µm; its authors allow its use up to 1.9 µm.
 
-use super::{MediumError, check_range, water_absorption};
+use super::{MediumError, check_range, invalid, water_absorption};
 use num_complex::Complex64;
 
 /// Wavelengths the formulation may be used at, metres.
@@ -49,7 +49,7 @@ pub(super) fn check_temperature(temperature: f64, any_density: bool) -> Result<(
     let range = format!("{:.0} to {:.0}", from - 273.15, to - 273.15);
     let accepted = if any_density { range } else { format!("{range} (the liquid at 1 atm)") };
     let value = format!("{:.6}", temperature - 273.15);
-    Err(MediumError::Invalid { field: "temperature_c".into(), value, accepted })
+    Err(invalid("temperature_c", value, &accepted))
 }
 
 /// Refuses densities (kg/m³) outside the formulation.
@@ -57,11 +57,7 @@ pub(super) fn check_density(density: f64) -> Result<(), MediumError> {
     if (0.0..=1060.0).contains(&density) {
         return Ok(());
     }
-    Err(MediumError::Invalid {
-        field: "density_kg_m3".into(),
-        value: density.to_string(),
-        accepted: "0 to 1060".into(),
-    })
+    Err(invalid("density_kg_m3", density, "0 to 1060"))
 }
 
 /// Density of liquid water at 1 atm in kg/m³, temperature in kelvin (253 to 383 K).

@@ -18,7 +18,7 @@ pub struct DirectionGrid {
 }
 
 /// Four samples and their weights; indices into a θ-major array of θ × φ.
-pub type Corners = [(usize, f64); 4];
+pub(super) type Corners = [(usize, f64); 4];
 
 impl DirectionGrid {
     pub fn new(axes: &Axes) -> Self {

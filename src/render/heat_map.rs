@@ -72,7 +72,7 @@ pub fn colour_bar(
 }
 
 /// `10⁻³` and the like.
-pub fn power_of_ten(power: i32) -> String {
+pub(super) fn power_of_ten(power: i32) -> String {
     let digits = power.to_string();
     let superscript = digits.chars().map(|c| match c {
         '-' => '⁻',

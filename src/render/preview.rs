@@ -136,22 +136,32 @@ fn draw_sphere(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     colour_bar(&bar_area, "P (sr⁻¹)", range, inferno)
 }
 
-/// P(θ) at a few wavelengths in their own colours, upwards and (where it differs) downwards.
-fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
+/// P(θ) at one wavelength, along one azimuth.
+struct Curve {
+    wavelength: f64,
+    phi: f64,
+    /// Which half of the plane, where there are two.
+    half: &'static str,
+    /// Degrees and powers of ten.
+    points: Vec<(f64, f64)>,
+}
+
+/// P(θ) at three wavelengths, upwards and (where it differs) downwards.
+fn curves(table: &PhaseTable) -> Vec<Curve> {
     let axes = &table.header.axes;
     let grid = DirectionGrid::new(axes);
     let count = table.slabs.len();
     let mut chosen: Vec<usize> = vec![count / 8, count / 2, count - 1 - count / 8];
     chosen.sort_by(|&i, &j| table.slabs[i].wavelength.total_cmp(&table.slabs[j].wavelength));
     chosen.dedup();
-    let halves: &[(f64, &str)] = if grid.is_rotational() {
+    let halves: &[(f64, &'static str)] = if grid.is_rotational() {
         &[(0.0, "")]
     } else {
         &[(0.0, ", up (φ = 0°)"), (std::f64::consts::PI, ", down (φ = 180°)")]
     };
     let halves: Vec<_> =
         halves.iter().filter(|(phi, _)| grid.corners(axes.theta[0], *phi).is_some()).collect();
-    let curve = |slab: &Slab, phi: f64| -> Vec<(f64, f64)> {
+    let points = |slab: &Slab, phi: f64| -> Vec<(f64, f64)> {
         let point = |&theta: &f64| {
             let corners = grid.corners(theta, phi)?;
             let value: f64 =
@@ -160,12 +170,24 @@ fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         };
         axes.theta.iter().filter_map(point).filter(|p| p.1.is_finite()).collect()
     };
-    let curves: Vec<_> = chosen
-        .iter()
-        .flat_map(|&i| halves.iter().map(move |half| (i, half)))
-        .map(|(i, half)| (&table.slabs[i], half.0, half.1, curve(&table.slabs[i], half.0)))
-        .collect();
-    let y = log_range(curves.iter().flat_map(|c| c.3.iter().map(|p| 10f64.powf(p.1))), 1.0);
+    let curve = |slab: &Slab, &(phi, half): &(f64, &'static str)| Curve {
+        wavelength: slab.wavelength,
+        phi,
+        half,
+        points: points(slab, phi),
+    };
+    let slabs = chosen.iter().map(|&i| &table.slabs[i]);
+    slabs
+        .flat_map(|slab| halves.iter().map(move |half| (slab, half)))
+        .map(|(slab, half)| curve(slab, half))
+        .collect()
+}
+
+/// The curves in the colours of their wavelengths.
+fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
+    let axes = &table.header.axes;
+    let curves = curves(table);
+    let y = log_range(curves.iter().flat_map(|c| c.points.iter().map(|p| 10f64.powf(p.1))), 1.0);
     let mut chart = ChartBuilder::on(area)
         .caption("phase function by scattering angle", (FONT, 16))
         .margin(12)
@@ -184,12 +206,12 @@ fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
         .draw()?;
-    for (slab, phi, name, points) in curves {
-        let [r, g, b] = wavelength_srgb(slab.wavelength);
+    for Curve { wavelength, phi, half, points } in curves {
+        let [r, g, b] = wavelength_srgb(wavelength);
         let color = RGBColor(r, g, b).mix(if phi == 0.0 { 0.8 } else { 0.35 });
         chart
             .draw_series(LineSeries::new(points, color.stroke_width(1)))?
-            .label(format!("{:.0} nm{name}", slab.wavelength * 1e9))
+            .label(format!("{:.0} nm{half}", wavelength * 1e9))
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(3)));
     }
     chart

@@ -8,7 +8,7 @@ const DIGITS: [&[u32]; 4] = [&[1], &[1, 2, 5], &[1, 2, 3, 5, 7], &[1, 2, 3, 4, 5
 
 /// Round numbers from `low` to `high` (`0 < low < high`), spread evenly in their logarithm. A range
 /// that is too narrow for whole leading digits gets even steps.
-pub fn logarithmic(low: f64, high: f64) -> Vec<f64> {
+pub(super) fn logarithmic(low: f64, high: f64) -> Vec<f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     for digits in DIGITS {
         // Below 1 divided by a whole number, so that 0.3 is the nearest number to 0.3.
@@ -27,7 +27,7 @@ pub fn logarithmic(low: f64, high: f64) -> Vec<f64> {
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten from `low` to `high` (`low < high`).
-pub fn linear(low: f64, high: f64) -> Vec<f64> {
+pub(super) fn linear(low: f64, high: f64) -> Vec<f64> {
     let power = 10f64.powf(((high - low) / FEWEST as f64).log10().floor());
     let fits = |step: &f64| (high - low) / step >= FEWEST as f64;
     let step = [5.0, 2.0, 1.0].map(|digit| digit * power).into_iter().find(fits).unwrap_or(power);

@@ -1,6 +1,6 @@
 //! Words that stand for one of a closed set of values, in scene files and flags alike.
 
-use super::error::nearest;
+use super::error::{SceneError, nearest};
 use super::{Diffraction, Method, SunDisc};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
@@ -48,6 +48,14 @@ impl<'de, T: Named> Deserialize<'de> for Choice<T> {
         let word = String::deserialize(deserializer)?;
         T::from_name(&word).map(Choice).map_err(D::Error::custom)
     }
+}
+
+/// The value that was chosen under `key`; an error with all words where none was.
+pub(super) fn chosen<T: Named>(choice: Option<Choice<T>>, key: &str) -> Result<T, SceneError> {
+    choice.map(|choice| choice.0).ok_or_else(|| {
+        let names: Vec<&str> = T::NAMES.iter().map(|(name, _)| *name).collect();
+        SceneError::missing(key, format!("accepted: {}", names.join(", ")))
+    })
 }
 
 /// The kinds of particles.

@@ -8,7 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Most points of one axis; more is a slip of the pen, and would be refused as too large anyway.
-pub const MAX_COUNT: u64 = 10_000_000;
+const MAX_COUNT: u64 = 10_000_000;
 
 /// Values of one axis, in the unit of its key.
 #[derive(Clone, Debug, PartialEq)]

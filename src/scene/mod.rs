@@ -13,6 +13,7 @@ mod choice;
 mod error;
 mod file;
 mod grid;
+mod particle;
 mod read;
 mod size;
 mod sizes;

@@ -1,22 +1,20 @@
 //! From keys as written to a `Scene` that physics can rely on.
 
-use super::choice::{Choice, Named, ShapeName};
+use super::choice::{Choice, Named, ShapeName, chosen};
 use super::error::SceneError;
-use super::file::{ParticleKeys, SceneFile};
+use super::file::SceneFile;
 use super::grid::Grid;
+use super::particle::{medium_of, particle_of, size_distribution};
 use super::{Diffraction, Method, Orders, Particle, Scene, SunDisc};
-use crate::medium::{Medium, MediumSpec};
+use crate::medium::MediumSpec;
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
-use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
-/// Axis ratios beyond these are needles and discs, for which neither rays nor drops are meant.
-const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
-/// Radii of spheres and spheroids, millimetres: from a nanometre to a centimetre.
-const RADII_MM: std::ops::RangeInclusive<f64> = 1e-6..=10.0;
 /// Highest order that may be asked for by name.
 const MAX_ORDER: u32 = 100;
+/// Relative error asked for where the scene asks for none.
+const TOLERANCE: f64 = 0.01;
 /// Mantissa bits of an `f32` without the implied one.
 const MANTISSA_BITS: u8 = 23;
 
@@ -91,164 +89,9 @@ impl SceneFile {
         full.model.interference.get_or_insert(true);
         full.model.diffraction.get_or_insert(Choice(Diffraction::Airy));
         full.model.orders.get_or_insert(Orders::Auto);
-        full.model.tolerance.get_or_insert(0.01);
+        full.model.tolerance.get_or_insert(TOLERANCE);
         full
     }
-}
-
-fn chosen<T: Named>(choice: Option<Choice<T>>, key: &str) -> Result<T, SceneError> {
-    choice.map(|choice| choice.0).ok_or_else(|| {
-        let names: Vec<&str> = T::NAMES.iter().map(|(name, _)| *name).collect();
-        SceneError::missing(key, format!("accepted: {}", names.join(", ")))
-    })
-}
-
-fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
-    let shape = chosen(keys.shape, "particle.shape")?;
-    size_distribution(keys)?;
-    if let (Some(ratio), true) = (keys.axis_ratio, shape != ShapeName::Spheroid) {
-        let accepted = format!("only a spheroid has an axis ratio; the shape is {}", shape.name());
-        return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
-    }
-    if let (Some(model), true) = (keys.model, shape != ShapeName::Raindrop) {
-        let accepted = format!("only a raindrop has a shape model; the shape is {}", shape.name());
-        return Err(SceneError::invalid("particle.model", model.0.name(), accepted));
-    }
-    match shape {
-        ShapeName::Sphere => {
-            let radius = match size_distribution(keys)? {
-                Some(sizes) => sizes.effective_radius(),
-                None => radius(keys, plain_radius)?,
-            };
-            Ok(Particle::Sphere { radius })
-        }
-        ShapeName::Spheroid => Ok(Particle::Spheroid {
-            radius: radius(keys, plain_radius)?,
-            axis_ratio: axis_ratio(keys.axis_ratio)?,
-        }),
-        ShapeName::Raindrop => {
-            let model = chosen(keys.model, "particle.model")?;
-            let radius = radius(keys, |radius_mm| raindrop_radius(model, radius_mm))?;
-            Ok(Particle::Raindrop { radius, model })
-        }
-    }
-}
-
-/// Many spheres in place of one.
-fn size_distribution(keys: &ParticleKeys) -> Result<Option<SizeDistribution>, SceneError> {
-    const KEY: &str = "particle.size_distribution";
-    let Some(sizes) = &keys.size_distribution else { return Ok(None) };
-    let shape = chosen(keys.shape, "particle.shape")?;
-    if shape != ShapeName::Sphere {
-        let accepted = format!("only spheres have one; the shape is {}", shape.name());
-        return Err(SceneError::invalid(KEY, sizes, accepted));
-    }
-    if keys.radius_mm.or(keys.radius_um).or(keys.diameter_mm).is_some() {
-        let accepted = "the size is given twice; leave out radius_mm, radius_um and diameter_mm";
-        return Err(SceneError::invalid(KEY, sizes, accepted));
-    }
-    sizes.checked().map(Some).map_err(|accepted| SceneError::invalid(KEY, sizes, accepted))
-}
-
-/// The radius in metres from whichever size was given; `accept` judges it in millimetres.
-fn radius(
-    keys: &ParticleKeys,
-    accept: impl Fn(f64) -> Result<(), String>,
-) -> Result<f64, SceneError> {
-    let given: Vec<(&str, f64, f64)> = [
-        ("particle.radius_mm", keys.radius_mm, 1.0),
-        ("particle.radius_um", keys.radius_um, 1e-3),
-        ("particle.diameter_mm", keys.diameter_mm, 0.5),
-    ]
-    .into_iter()
-    .filter_map(|(key, value, unit)| value.map(|value| (key, value, unit)))
-    .collect();
-    match given[..] {
-        [(key, value, unit)] => {
-            let radius_mm = value * unit;
-            accept(radius_mm).map_err(|accepted| SceneError::invalid(key, value, accepted))?;
-            Ok(radius_mm * 1e-3)
-        }
-        [] => Err(SceneError::missing(
-            "particle.radius_mm",
-            "give the size of the sphere of equal volume as radius_mm, radius_um or diameter_mm",
-        )),
-        [_, (key, value, _), ..] => Err(SceneError::invalid(
-            key,
-            value,
-            "the size is given twice; keep one of radius_mm, radius_um, diameter_mm",
-        )),
-    }
-}
-
-fn plain_radius(radius_mm: f64) -> Result<(), String> {
-    if RADII_MM.contains(&radius_mm) {
-        return Ok(());
-    }
-    Err(format!("a radius must be {} to {} mm", RADII_MM.start(), RADII_MM.end()))
-}
-
-fn raindrop_radius(model: RaindropModel, radius_mm: f64) -> Result<(), String> {
-    let range_mm = |model: RaindropModel| {
-        let (from, to) = model.radius_range();
-        (from * 1e3, to * 1e3)
-    };
-    let (from, to) = range_mm(model);
-    if (from..=to).contains(&radius_mm) {
-        return Ok(());
-    }
-    let mut message =
-        format!("the raindrop model {} holds for radii of {from} to {to} mm", model.name());
-    for (name, wider) in RaindropModel::NAMES {
-        let (from, to) = range_mm(*wider);
-        if (from..=to).contains(&radius_mm) {
-            message += &format!("; model = \"{name}\" reaches {to} mm");
-        }
-    }
-    Err(message)
-}
-
-fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
-    const KEY: &str = "particle.axis_ratio";
-    let accepted = format!(
-        "vertical over horizontal diameter of the spheroid, {} to {}",
-        AXIS_RATIOS.start(),
-        AXIS_RATIOS.end()
-    );
-    match ratio {
-        None => Err(SceneError::missing(KEY, accepted)),
-        Some(ratio) if AXIS_RATIOS.contains(&ratio) => Ok(ratio),
-        Some(ratio) => Err(SceneError::invalid(KEY, ratio, accepted)),
-    }
-}
-
-fn medium_of(
-    keys: &ParticleKeys,
-    folder: &Path,
-    wavelengths: &[f64],
-) -> Result<Medium, SceneError> {
-    const KEY: &str = "particle.medium";
-    let mut spec = keys.medium.clone().unwrap_or_default();
-    match (&mut spec, keys.temperature_c) {
-        (MediumSpec::Named(named), Some(celsius)) => named.temperature_c = Some(celsius),
-        (_, Some(celsius)) => {
-            let accepted = "only a medium of the library has a temperature";
-            return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));
-        }
-        (_, None) => {}
-    }
-    let medium = spec.resolve(folder).map_err(|source| SceneError::medium(KEY, source))?;
-    for wavelength in wavelengths {
-        let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
-        if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {
-            let accepted = "an index n + ik needs n > 0 and k ≥ 0";
-            return Err(SceneError::invalid(KEY, index, accepted));
-        }
-        if (index - 1.0).norm() < 1e-9 {
-            return Err(SceneError::invalid(KEY, index, "an index of 1 scatters no light"));
-        }
-    }
-    Ok(medium)
 }
 
 fn sun_elevation(degrees: Option<f64>) -> Result<f64, SceneError> {
@@ -274,7 +117,7 @@ fn bandwidth(nm: Option<f64>, wavelengths: &[f64]) -> Result<f64, SceneError> {
     Err(SceneError::invalid("light.bandwidth_nm", nm, accepted))
 }
 
-/// The values of an axis, all inside `limits`; `ascending` where the order matters.
+/// The values of an axis: ascending, all inside `limits`.
 fn axis(
     key: &str,
     grid: Option<&Grid>,
@@ -351,7 +194,7 @@ fn orders(orders: Option<&Orders>) -> Result<Orders, SceneError> {
 }
 
 fn tolerance(tolerance: Option<f64>) -> Result<f64, SceneError> {
-    let tolerance = tolerance.unwrap_or(0.01);
+    let tolerance = tolerance.unwrap_or(TOLERANCE);
     if (1e-8..=0.5).contains(&tolerance) {
         return Ok(tolerance);
     }

@@ -66,12 +66,6 @@ impl Shape {
         Ok(Self { body, down: down(sun_elevation) })
     }
 
-    /// A raindrop by its own coefficients `c_n` of `r = 1 + Σ c_n cos nθ`, θ from the lower pole.
-    pub fn polar(coefficients: &[f64], sun_elevation: f64) -> Self {
-        let body = Body::Raindrop(Raindrop::from_coefficients(coefficients));
-        Self { body, down: down(sun_elevation) }
-    }
-
     /// True when scattering cannot depend on azimuth: a sphere, or light along the axis.
     pub fn rotational_symmetry(&self) -> bool {
         self.is_sphere() || self.down.x.abs() < 1e-12

@@ -105,8 +105,8 @@ impl Raindrop {
         Ok(Self::from_coefficients(&model.coefficients(radius)?))
     }
 
-    /// A drop by its coefficients `c_n`.
-    pub fn from_coefficients(coefficients: &[f64]) -> Self {
+    /// A drop by the coefficients `c_n` of `r = 1 + Σ c_n cos nθ`, θ from the lower pole.
+    fn from_coefficients(coefficients: &[f64]) -> Self {
         let mut powers = chebyshev_to_powers(coefficients);
         powers[0] += 1.0;
         while powers.len() > 1 && powers[powers.len() - 1] == 0.0 {

@@ -56,9 +56,7 @@ fn add_ray(tracer: &Tracer, wavefront: &Wavefront, i: usize, j: usize, sum: &mut
     let left = &mut sum.left_by_order;
     let momentum = &mut sum.forward_momentum;
     let remainder = tracer.trace_to_the_end(u, v, |exit| {
-        let square =
-            |e: &crate::math::vec3::Field| e.x.norm_sqr() + e.y.norm_sqr() + e.z.norm_sqr();
-        let power = 0.5 * (square(&exit.field[0]) + square(&exit.field[1]));
+        let power = exit.power();
         left[exit.order as usize] += weight * power;
         *momentum += weight * power * exit.direction.z;
     });

@@ -1,6 +1,6 @@
 //! A ray that has left the particle: everything the far field needs of it.
 
-use super::ray::Ray;
+use super::ray::{Ray, power};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::{Field, Vec3};
 use crate::optics::AmplitudeMatrix;
@@ -28,7 +28,9 @@ pub struct Exit<T> {
 }
 
 impl<T: Scalar> Exit<T> {
-    pub(super) fn new(order: u32, ray: &Ray<T>) -> Self {
+    /// The exit of a ray that has just left the surface.
+    pub(super) fn new(order: u32, ray: Ray<T>) -> Self {
+        let ahead = if T::REAL { ray.focal_lines_within(f64::INFINITY) } else { 0 };
         let s = ray.direction;
         let along = s.dot(ray.position);
         // Slide position and differentials along the ray to the plane through the centre.
@@ -45,8 +47,13 @@ impl<T: Scalar> Exit<T> {
             reference,
             path: ray.path - along,
             field: ray.field,
-            focal_lines: ray.focal_lines,
+            focal_lines: ray.focal_lines + ahead,
         }
+    }
+
+    /// Power for unpolarised light, as a fraction of what the ray began with.
+    pub(super) fn power(&self) -> f64 {
+        power(&self.field)
     }
 
     /// `s·(∂ᵤs × ∂ᵥs)`: signed solid angle per area of the wavefront; zero on a caustic.

@@ -10,9 +10,10 @@ mod exit;
 mod focal_lines;
 mod ray;
 mod surface_event;
+mod tracer;
 mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
 pub use exit::{Exit, transfer};
-pub use ray::{Meeting, Tracer};
+pub use tracer::{Meeting, Remainder, Tracer};
 pub use wavefront::Wavefront;

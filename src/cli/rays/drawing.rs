@@ -1,6 +1,6 @@
 //! The drawing of rays through a drop, as SVG: upper side up, light from the left.
 
-use super::rays::{PlaneRay, Rainbow};
+use super::plane::{PlaneRay, Rainbow};
 use gonio::shape::Shape;
 use maud::{Markup, PreEscaped, html};
 use std::f64::consts::TAU;
@@ -12,7 +12,7 @@ const SCALE: f64 = 150.0;
 const MOST_DRAWN: usize = 60;
 
 /// The whole SVG.
-pub fn draw(shape: &Shape, order: u32, rays: &[PlaneRay], rainbows: &[Rainbow]) -> String {
+pub(super) fn draw(shape: &Shape, order: u32, rays: &[PlaneRay], rainbows: &[Rainbow]) -> String {
     let side = 2.0 * REACH * SCALE;
     let step = rays.len().div_ceil(MOST_DRAWN).max(1);
     let bows: Vec<String> = rainbows

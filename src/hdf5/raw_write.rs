@@ -1,4 +1,4 @@
-//! The thin layer over the HDF5 C library: every `unsafe` call of the program is here.
+//! Writing through the HDF5 C library.
 //!
 //! What it does beyond the safe crate: objects without time stamps (so that equal input gives
 //! equal bytes), attributes as fixed-length strings (netCDF-C reads no others as text), dimension
@@ -6,6 +6,7 @@
 //! lock.
 
 use super::TableError;
+use super::raw_id::{Id, last_reason};
 use hdf5::globals::{H5P_ATTRIBUTE_CREATE, H5P_DATASET_CREATE, H5P_FILE_ACCESS, H5P_FILE_CREATE};
 use hdf5::globals::{H5T_C_S1, H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_I32LE, H5T_STD_U8LE};
 use hdf5::sync::sync;
@@ -21,20 +22,6 @@ unsafe extern "C" {
     // From the high-level library, which the sys crate links but does not declare.
     unsafe fn H5DSset_scale(dsid: hid_t, dimname: *const c_char) -> herr_t;
     unsafe fn H5DSattach_scale(did: hid_t, dsid: hid_t, index: u32) -> herr_t;
-}
-
-/// An HDF5 identifier that closes itself.
-#[derive(Debug)]
-pub(super) struct Id {
-    id: hid_t,
-    close: unsafe extern "C" fn(hid_t) -> herr_t,
-}
-
-impl Drop for Id {
-    fn drop(&mut self) {
-        // SAFETY: the identifier is valid until here and closed once.
-        sync(|| unsafe { (self.close)(self.id) });
-    }
 }
 
 /// What the values of a dataset are.
@@ -112,7 +99,7 @@ impl NewFile {
 
     /// Write an integer attribute of the file.
     pub fn attribute_integer(&self, name: &str, value: i32) -> Result<(), TableError> {
-        number_attribute(&self.path, self.id.id, name, Kind::I32, (&raw const value).cast())
+        integer_attribute(&self.path, self.id.id, name, value)
     }
 
     /// Create a dataset; chunked and compressed, or contiguous (a scalar when `shape` is empty).
@@ -211,12 +198,14 @@ impl NewDataset {
         })
     }
 
+    /// Write a text attribute of the dataset.
     pub fn attribute(&self, name: &str, text: &str) -> Result<(), TableError> {
         text_attribute(&self.path, self.id.id, name, text)
     }
 
+    /// Write an integer attribute of the dataset.
     pub fn attribute_integer(&self, name: &str, value: i32) -> Result<(), TableError> {
-        number_attribute(&self.path, self.id.id, name, Kind::I32, (&raw const value).cast())
+        integer_attribute(&self.path, self.id.id, name, value)
     }
 
     /// Make this dataset the coordinate of the dimension of the same name.
@@ -240,13 +229,18 @@ impl NewDataset {
     }
 }
 
+fn integer_attribute(path: &Path, object: hid_t, name: &str, value: i32) -> Result<(), TableError> {
+    write_attribute(path, object, name, Kind::I32, (&raw const value).cast())
+}
+
 fn text_attribute(path: &Path, object: hid_t, name: &str, text: &str) -> Result<(), TableError> {
     let value = c_text(path, text)?;
     let kind = Kind::Text(value.as_bytes_with_nul().len());
-    number_attribute(path, object, name, kind, value.as_ptr().cast())
+    write_attribute(path, object, name, kind, value.as_ptr().cast())
 }
 
-fn number_attribute(
+/// An attribute of one value; `value` points to one of `kind`.
+fn write_attribute(
     path: &Path,
     object: hid_t,
     name: &str,
@@ -319,20 +313,15 @@ fn owned(
     id: hid_t,
     close: unsafe extern "C" fn(hid_t) -> herr_t,
 ) -> Result<Id, TableError> {
-    if id < 0 { Err(failure(path)) } else { Ok(Id { id, close }) }
+    Id::new(id, close).ok_or_else(|| failure(path))
 }
 
 fn done(path: &Path, status: herr_t) -> Result<(), TableError> {
     if status < 0 { Err(failure(path)) } else { Ok(()) }
 }
 
-/// The library's last error as ours, with the system's reason where it gives one.
 fn failure(path: &Path) -> TableError {
-    let message = match hdf5::Error::query() {
-        Ok(error) => super::library_message(&error),
-        Err(_) => "the HDF5 library gives no reason".into(),
-    };
-    TableError::Write { path: path.to_path_buf(), message }
+    TableError::Write { path: path.to_path_buf(), message: last_reason() }
 }
 
 fn c_text(path: &Path, text: &str) -> Result<CString, TableError> {

@@ -1,0 +1,195 @@
+//! From what a scene file says about a medium to the [`Medium`] itself: names are looked up, files
+//! read, coefficients checked.
+
+use super::kramers_kronig::{Absorption, Tails};
+use super::spec::{MediumSpec, NamedSpec, has_ending};
+use super::table::{curve, name_of};
+use super::{
+    Abbe, BandModel, Daimon, Dye, Formula, Material, Medium, MediumError, PLAUSIBLE_INDEX,
+    RealIndex, Solution, csv_table, invalid, is_plausible, library, refractive_index_info,
+};
+use num_complex::Complex64;
+use std::path::Path;
+use std::sync::Arc;
+
+impl MediumSpec {
+    /// The medium; files are looked for in `base_dir`.
+    pub fn resolve(&self, base_dir: &Path) -> Result<Medium, MediumError> {
+        match self {
+            Self::Named(named) => named.resolve(),
+            Self::Index { n, k } => constant(*n, *k),
+            Self::File { path, extrapolate } => {
+                let mut material = read_material(&base_dir.join(path))?;
+                material.extrapolate = *extrapolate;
+                Ok(Medium::Material(Arc::new(material)))
+            }
+            Self::Sellmeier { b, c_um2 } => {
+                from_formula("Sellmeier", Formula::sellmeier(b, c_um2)?)
+            }
+            Self::Cauchy(coefficients) => from_formula("Cauchy", Formula::cauchy(coefficients)?),
+            Self::Abbe { index, number, line } => {
+                let abbe = Abbe { index: *index, number: *number };
+                from_formula("Abbe", Formula::cauchy(&abbe.to_cauchy(*line)?)?)
+            }
+            Self::Solution { solute, fraction, host, dispersion } => {
+                let dye = if has_ending(Path::new(solute), &["csv"]) {
+                    dye_of_file(&base_dir.join(solute))?
+                } else {
+                    library::dye(&library::canonical(solute)?)?
+                };
+                solution(dye, *fraction, host.resolve(base_dir)?, *dispersion)
+            }
+            Self::Absorbance { path, path_mm, host, dispersion } => {
+                let dye = dye_of_absorbance(&base_dir.join(path), *path_mm)?;
+                solution(dye, 1.0, host.resolve(base_dir)?, *dispersion)
+            }
+        }
+    }
+}
+
+impl NamedSpec {
+    fn resolve(&self) -> Result<Medium, MediumError> {
+        let name = library::canonical(&self.name)?;
+        self.refuse_foreign_conditions(&name)?;
+        let temperature = self.temperature_c.unwrap_or(20.0) + 273.15;
+        let medium = match name.as_str() {
+            "water" => match self.density_kg_m3 {
+                Some(density) => Medium::WaterOfDensity { temperature, density },
+                None => Medium::Water { temperature },
+            },
+            "sea-water" => {
+                Medium::SeaWater { temperature, salinity: self.salinity_g_kg.unwrap_or(35.0) }
+            }
+            "water-daimon" => Medium::Daimon(Arc::new(Daimon::new(temperature)?)),
+            model if BandModel::by_name(model).is_some() => {
+                let accepted = format!(
+                    "a medium; this is a dye: {{ solute = \"{model}\", fraction = 0.01, host = \
+                     \"water\" }}"
+                );
+                return Err(invalid("medium", &self.name, &accepted));
+            }
+            other => {
+                let mut material = library::material(other)?;
+                material.extrapolate = self.extrapolate;
+                Medium::Material(Arc::new(material))
+            }
+        };
+        medium.check_conditions()?;
+        Ok(medium)
+    }
+
+    /// Refuses a condition that the medium does not depend on, rather than ignore it.
+    fn refuse_foreign_conditions(&self, name: &str) -> Result<(), MediumError> {
+        let water = ["water", "sea-water", "water-daimon"].contains(&name);
+        let foreign = [
+            ("temperature_c", self.temperature_c, water),
+            ("density_kg_m3", self.density_kg_m3, name == "water"),
+            ("salinity_g_kg", self.salinity_g_kg, name == "sea-water"),
+            ("extrapolate", self.extrapolate.then_some(1.0), !water),
+        ];
+        match foreign.into_iter().find(|(_, value, known)| value.is_some() && !known) {
+            Some((field, value, _)) => {
+                let value = value.unwrap_or_default();
+                Err(invalid(field, value, &format!("nothing: {name} does not depend on it")))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+fn constant(n: f64, k: f64) -> Result<Medium, MediumError> {
+    if !(n > 0.0 && n.is_finite()) {
+        return Err(invalid("index: n", n, "a positive number"));
+    }
+    if !(k >= 0.0 && k.is_finite()) {
+        return Err(invalid("index: k", k, "0 or more (n + ik absorbs for k > 0)"));
+    }
+    let index = Complex64::new(n, k);
+    if !is_plausible(index) {
+        return Err(invalid("index", format!("[{n:e}, {k:e}]"), PLAUSIBLE_INDEX));
+    }
+    Ok(Medium::Constant(index))
+}
+
+/// A medium by a formula of the user's: valid between the poles on either side of visible light.
+fn from_formula(name: &str, formula: Formula) -> Result<Medium, MediumError> {
+    let (from, to) = formula.interval_about(0.58);
+    // Wavelengths that anyone may ask for, and a hair's breadth off the poles.
+    let (from, to) = ((from * 1.000_001).max(0.1), (to * 0.999_999).min(20.0));
+    // Visible light must be in it: a pole there is a slip of the pen, not a wish.
+    formula.check_range(0.38, 0.78)?;
+    let material = Material {
+        name: name.into(),
+        source: "given by its coefficients".into(),
+        real: RealIndex::Formula(formula),
+        extinction: None,
+        range: (from / 1e6, to / 1e6),
+        extrapolate: false,
+    };
+    Ok(Medium::Material(Arc::new(material)))
+}
+
+fn solution(
+    dye: Dye,
+    fraction: f64,
+    host: Medium,
+    dispersion: bool,
+) -> Result<Medium, MediumError> {
+    let solution = Solution::new(dye, fraction, host)?.with_dispersion(dispersion);
+    Ok(Medium::Solution(Arc::new(solution)))
+}
+
+/// A material from a YAML or CSV file; a CSV file must have n.
+fn read_material(path: &Path) -> Result<Material, MediumError> {
+    if !has_ending(path, &["csv", "txt"]) {
+        return refractive_index_info::read(path);
+    }
+    let table = csv_table::read(path)?;
+    let name = name_of(path);
+    if table.n.is_empty() {
+        return Err(MediumError::File {
+            path: path.into(),
+            line: None,
+            message: "no column n; a dye's k goes with a host: { solute = \"FILE.csv\", … }".into(),
+        });
+    }
+    let n = curve(&table.wavelength, &table.n)?;
+    let k = match table.k.is_empty() {
+        true => None,
+        false => Some(curve(&table.wavelength, &table.k)?),
+    };
+    Material::from_tables(name, table.source, n, k)
+}
+
+fn dye_of_file(path: &Path) -> Result<Dye, MediumError> {
+    let table = csv_table::read(path)?;
+    dye(path, table.source, &table.wavelength, &table.k, "k")
+}
+
+/// k from decadic absorbance: `A = log10(I0/I)`, `I = I0 exp(−4πkL/λ)`, so `k = A ln(10) λ/4πL`.
+fn dye_of_absorbance(path: &Path, path_mm: f64) -> Result<Dye, MediumError> {
+    if !(path_mm > 0.0 && path_mm.is_finite()) {
+        return Err(invalid("path_mm", path_mm, "a positive length"));
+    }
+    let table = csv_table::read(path)?;
+    let per_wavelength = std::f64::consts::LN_10 / (4.0 * std::f64::consts::PI * path_mm * 1e-3);
+    let rows = table.wavelength.iter().zip(&table.absorbance);
+    let k: Vec<f64> = rows.map(|(w, a)| a * per_wavelength * w).collect();
+    let source = format!("{} (absorbance over {path_mm} mm)", table.source);
+    dye(path, source, &table.wavelength, &k, "absorbance")
+}
+
+fn dye(
+    path: &Path,
+    source: String,
+    wavelength: &[f64],
+    k: &[f64],
+    column: &str,
+) -> Result<Dye, MediumError> {
+    if k.is_empty() {
+        let message = format!("no column {column}");
+        return Err(MediumError::File { path: path.into(), line: None, message });
+    }
+    let name = name_of(path);
+    Ok(Dye { name, source, absorption: Absorption::new(wavelength, k, Tails::Taper)? })
+}
