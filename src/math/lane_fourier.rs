@@ -49,7 +49,7 @@ impl LaneFourier {
     }
 
     /// Length of the sequences.
-    pub fn len(&self) -> usize {
+    pub fn length(&self) -> usize {
         self.roots.len()
     }
 

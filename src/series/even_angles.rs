@@ -94,7 +94,7 @@ impl AngleSums {
             return self.directly(series, usize::MAX);
         };
         let mut out = self.directly(series, far.low - 1);
-        let mut sums = [(); 4].map(|()| vec![Row::ZERO; far.fourier.len()]);
+        let mut sums = [(); 4].map(|()| vec![Row::ZERO; far.fourier.length()]);
         let mut spare = Vec::new();
         for (waves, out) in series.iter().zip(&mut out) {
             far.fill(waves, &mut sums);

@@ -131,7 +131,7 @@ impl State {
     "aarch64+neon"
 ))]
 fn advance(mut state: State, first: usize, out: &mut [[Lanes; 4]]) -> State {
-    for (k, row) in out.iter_mut().enumerate() {
+    for (k, [a_re, a_im, b_re, b_im]) in out.iter_mut().enumerate() {
         let n = (first + k) as f64;
         let odd = 2.0 * n - 1.0;
         for l in 0..LANES {
@@ -159,8 +159,8 @@ fn advance(mut state: State, first: usize, out: &mut [[Lanes; 4]]) -> State {
             let (q_re, q_im) = (one * chi - other * chi_slope, one_im * chi - other_im * chi_slope);
             let (re, im) = (n_re + q_im, n_im - q_re);
             let inverse = 1.0 / (re * re + im * im);
-            row[0][l] = (n_re * re + n_im * im) * inverse;
-            row[1][l] = (n_im * re - n_re * im) * inverse;
+            a_re[l] = (n_re * re + n_im * im) * inverse;
+            a_im[l] = (n_im * re - n_re * im) * inverse;
 
             // b_n.
             let (one, other) = (m * slope, inside);
@@ -169,8 +169,8 @@ fn advance(mut state: State, first: usize, out: &mut [[Lanes; 4]]) -> State {
             let (q_re, q_im) = (one * chi - other * chi_slope, one_im * chi - other_im * chi_slope);
             let (re, im) = (n_re + q_im, n_im - q_re);
             let inverse = 1.0 / (re * re + im * im);
-            row[2][l] = (n_re * re + n_im * im) * inverse;
-            row[3][l] = (n_im * re - n_re * im) * inverse;
+            b_re[l] = (n_re * re + n_im * im) * inverse;
+            b_im[l] = (n_im * re - n_re * im) * inverse;
         }
     }
     state
