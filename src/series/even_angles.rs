@@ -8,7 +8,7 @@
 //! w_n π_n = √(8ν/(π sin θ)) sin φ/(ν sin θ)
 //! ```
 //! so that a series is four Fourier sums, of a_n, a_n/ν, b_n and b_n/ν times √ν, each at θ and at -θ.
-//! The orders below [`FAR`]`/sin θ` are summed as they are ([`angular`]).
+//! The orders below 25/sin θ (`FAR`) are summed as they are ([`angular`]).
 //!
 //! A sum with L angles per turn is taken apart into eight by the remainder of n by eight, one in each
 //! SIMD lane. They are transformed together at a length of L/8, which stays in the second-level
