@@ -6,7 +6,7 @@ mod bows;
 
 use bows::{Peak, WATER, peaks};
 use gonio::color::{Illuminant, Observer};
-use gonio::lee::{Beats, Drop, LeeError, Polarisation, Request, diagram};
+use gonio::lee::{Angles, Beats, Drop, LeeError, Polarisation, Request, diagram};
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Orders, SceneFile, ShapeName};
 use serde::Deserialize;
@@ -60,7 +60,7 @@ fn profile(radius_mm: f64, sun_elevation_deg: f64, theta: &[f64]) -> Vec<f64> {
         fineness: 1.0,
     };
     // Light that goes down comes from above.
-    let directions = |theta: &[f64]| theta.iter().map(|&t| (t, PI)).collect::<Vec<_>>();
+    let directions = |angles: &Angles| angles.theta.iter().map(|&t| (t, PI)).collect::<Vec<_>>();
     let one = |drop: &Drop, at: &Vec<(f64, f64)>| {
         let mut sum = vec![[0.0; 2]; at.len()];
         for plan in &plans {

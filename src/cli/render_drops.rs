@@ -36,6 +36,9 @@ pub struct DropKeys {
 
 /// Sizes that stand for a distribution.
 const SIZES: usize = 11;
+/// Of the wavelengths of a Lee diagram, which shows a single size at single angles, every third: the
+/// picture's time.
+const EVERY: usize = 3;
 /// Scattering angles of spheres computed here, degrees; nearer to the sun nobody looks.
 const FROM: f64 = 2.0;
 
@@ -123,13 +126,13 @@ fn sphere(
         angles: (from, to),
         fineness: 1.0,
     });
-    let step = sampling.bands.iter().map(|b| b.step).fold(f64::INFINITY, f64::min).max(2e-4);
+    let step = sampling.finest_step.max(2e-4);
     let count = ((to - from) / step).ceil() as usize;
     let theta: Vec<f64> =
         (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();
     // A distribution of sizes averages the ripple that single sizes need wavelengths for.
     let most = if kind.size_spread.unwrap_or(0.0) > 0.0 { 64 } else { 300 };
-    let stride = sampling.wavelengths.len().div_ceil(most);
+    let stride = sampling.wavelengths.len().div_ceil(most).max(EVERY);
     let mut wavelength: Vec<f64> = sampling.wavelengths.into_iter().step_by(stride).collect();
     wavelength.sort_by(f64::total_cmp);
     let quantity = if polarised { Quantity::Mueller } else { Quantity::PhaseFunction };

@@ -16,8 +16,8 @@ pub use sun_filter::{Kernel, SunFilter};
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::medium::{Medium, MediumError};
 use crate::series::SeriesError;
-use crate::series::angular::AngleSet;
-use crate::series::lorenz_mie::Sphere;
+use crate::series::even_angles::AngleSums;
+use crate::series::lanes::{LANES, partial_waves};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use sampling::{AXIS_MARGIN, GOLDEN, TRANSITION, grid};
@@ -84,8 +84,17 @@ pub struct Drop {
     pub index: Complex64,
 }
 
+/// Scattering angles that one band is computed at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Angles {
+    /// Radians, ascending.
+    pub theta: Vec<f64>,
+    /// If they are `2πk/L` for neighbouring k: the first k, and L.
+    pub even: Option<(usize, usize)>,
+}
+
 /// Neighbouring wavelengths that are computed together, since they share the angles.
-const TOGETHER: usize = 2;
+const TOGETHER: usize = LANES;
 
 /// The diagram of spheres by Lorenz–Mie.
 ///
@@ -95,19 +104,21 @@ pub fn spheres(request: &Request) -> Result<Diagram, LeeError> {
     let intensities = |amplitudes: Vec<(Complex64, Complex64)>| {
         amplitudes.iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect()
     };
-    diagram(request, Beats::All, &AngleSet::new, |drops, angles| {
-        let solve = |drop: &Drop| Sphere::new(TAU * drop.radius / drop.wavelength, drop.index);
-        if let [one, other] = drops {
-            let pair = Sphere::amplitudes_together([&solve(one)?, &solve(other)?], angles);
-            return Ok(pair.map(intensities).into());
-        }
-        drops.iter().map(|drop| Ok(intensities(solve(drop)?.amplitudes_at(angles)))).collect()
+    let prepare = |angles: &Angles| match angles.even {
+        Some((first, per_turn)) => AngleSums::even(first, angles.theta.len(), per_turn),
+        None => AngleSums::any(&angles.theta),
+    };
+    diagram(request, Beats::All, &prepare, |drops, angles| {
+        let sphere = |drop: &Drop| (TAU * drop.radius / drop.wavelength, drop.index);
+        let spheres: Vec<(f64, Complex64)> = drops.iter().map(sphere).collect();
+        let waves = partial_waves(&spheres).map_err(LeeError::from)?;
+        Ok(angles.amplitudes(&waves).into_iter().map(intensities).collect())
     })
 }
 
-/// The diagram by any method: `prepare` makes of a list of scattering angles (ascending) what
-/// `scatter` then gives the intensities of a few drops at. Only the asked angles and the filter's reach beyond them are computed. Columns run in parallel, the
-/// largest drops first.
+/// The diagram by any method: `prepare` makes of scattering angles what `scatter` then gives the
+/// intensities of a few drops at. Only the asked angles and the filter's reach beyond them are
+/// computed. Columns run in parallel, the largest drops first.
 ///
 /// # Errors
 /// Those of `scatter`, and as [`spheres`].
@@ -119,7 +130,7 @@ pub fn diagram<A, E, P, F>(
 ) -> Result<Diagram, E>
 where
     E: From<LeeError> + Send,
-    P: Fn(&[f64]) -> A + Sync,
+    P: Fn(&Angles) -> A + Sync,
     F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
     check(request)?;
@@ -158,7 +169,7 @@ fn column<A, E, P, F>(
 ) -> Result<Vec<[[f64; 3]; 2]>, E>
 where
     E: From<LeeError> + Send,
-    P: Fn(&[f64]) -> A + Sync,
+    P: Fn(&Angles) -> A + Sync,
     F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
     let filter = request.sun_disc.then(|| SunFilter::new(sampling.cutoff, TRANSITION));
@@ -167,15 +178,17 @@ where
         .bands
         .par_iter()
         .map(|band| {
-            let theta = match &filter {
+            let angles = match &filter {
                 Some(filter) => {
                     let (first, last) = request.angles();
-                    grid(first, last, filter.reach(), band.step)
+                    let places = grid(first, last, filter.reach(), band);
+                    let even = Some((places.start, band.per_turn));
+                    Angles { theta: places.map(|k| k as f64 * band.step()).collect(), even }
                 }
-                None => request.theta.clone(),
+                None => Angles { theta: request.theta.clone(), even: None },
             };
-            let angles = prepare(&theta);
-            let mut sums = vec![[0.0; 6]; theta.len()];
+            let prepared = prepare(&angles);
+            let mut sums = vec![[0.0; 6]; angles.theta.len()];
             for first in band.places.clone().step_by(TOGETHER) {
                 let places = first..(first + TOGETHER).min(band.places.end);
                 let drop = |i: usize| {
@@ -186,7 +199,7 @@ where
                 };
                 let drops: Vec<Drop> =
                     places.map(drop).collect::<Result<_, LeeError>>().map_err(E::from)?;
-                for (k, intensities) in scatter(&drops, &angles)?.iter().enumerate() {
+                for (k, intensities) in scatter(&drops, &prepared)?.iter().enumerate() {
                     let scale = (drops[k].wavelength / TAU).powi(2) / (PI * radius * radius);
                     add(&mut sums, intensities, weights[first + k].map(|w| w * scale));
                 }
@@ -194,7 +207,7 @@ where
             let Some(filter) = &filter else { return Ok(sums) };
             let middle = sampling.wavelengths[(band.places.start + band.places.end) / 2];
             let kernel = filter.kernel(&LimbDarkening::at(middle));
-            Ok(kernel.average(&theta, band.step, &sums, &request.theta))
+            Ok(kernel.average(&angles.theta, band.step(), &sums, &request.theta))
         })
         .collect::<Result<Vec<_>, E>>()?;
     let total = |t: usize, c: usize| bands.iter().map(|band| band[t][c]).sum::<f64>().max(0.0);

@@ -18,16 +18,20 @@
 
 use super::wavelengths::{BAND, nodes};
 use crate::color::SUN_ANGULAR_RADIUS;
+use crate::series::even_angles::AngleSums;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
 /// Cut-off of the filter: this share of the size parameter …
-const CUTOFF_SHARE: f64 = 0.3;
-/// … and never less, or more: from here the disc has damped a beat to 10 %, and its path difference
-/// is more than the colours resolve.
-const CUTOFF: (f64, f64) = (500.0, 1500.0);
-/// The most near the axis, where path differences are small.
-const CUTOFF_NEAR_AXIS: f64 = 2500.0;
+const CUTOFF_SHARE: f64 = 0.6;
+/// … and never less, or more. The disc damps a beat of 1500 only to 10 %: ended there, the finest
+/// fringes of drops beyond 0.6 mm cost ΔE 1.1.
+const CUTOFF: (f64, f64) = (1000.0, 3000.0);
+/// The same of rays, whose angles cost more and whose diagrams keep less of the fine fringes.
+const CUTOFF_SHARE_APART: f64 = 0.3;
+const CUTOFF_APART: (f64, f64) = (500.0, 1500.0);
+/// The same near the axis, where path differences are small.
+const CUTOFF_NEAR_AXIS: (f64, f64) = (500.0, 2500.0);
 /// Width over which the filter falls from 1 to 0; its kernel is then shorter than five disc radii.
 pub const TRANSITION: f64 = 1000.0;
 /// Closer to the axis than this, beats between opposite sides of the drop are slow in wavelength.
@@ -36,10 +40,10 @@ const NEAR_AXIS: f64 = 15.0 * PI / 180.0;
 const BEYOND_EDGE: f64 = 15.0;
 /// Number of wavelengths: for small drops; from which size parameter it falls, and with which
 /// power; and the least. Measured, see `validation/look.md`.
-const MOST: f64 = 900.0;
-const FALLS_FROM: f64 = 900.0;
+const MOST: f64 = 2000.0;
+const FALLS_FROM: f64 = 1500.0;
 const FALLS_AS: f64 = 1.3;
-const LEAST: f64 = 70.0;
+const LEAST: f64 = 240.0;
 /// The same of waves without beats between orders: a few beats of the supernumerary bows remain.
 const MOST_APART: f64 = 64.0;
 const LEAST_APART: f64 = 40.0;
@@ -92,6 +96,8 @@ pub struct Sampling {
     pub widths: Vec<f64>,
     /// Beats that are kept, radians⁻¹.
     pub cutoff: f64,
+    /// Finest step in scattering angle that any wavelength needs, radians.
+    pub finest_step: f64,
     /// Wavelengths (places in the list above) that share a grid of angles.
     pub bands: Vec<Band>,
 }
@@ -100,8 +106,15 @@ pub struct Sampling {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
     pub places: Range<usize>,
+    /// Steps in scattering angle per full turn.
+    pub per_turn: usize,
+}
+
+impl Band {
     /// Step in scattering angle, radians.
-    pub step: f64,
+    pub fn step(&self) -> f64 {
+        TAU / self.per_turn as f64
+    }
 }
 
 impl Sampling {
@@ -120,20 +133,26 @@ impl Sampling {
         let share = if need.beats == Beats::All || near_axis(need) { 2.0 } else { WITHIN_ORDER };
         let highest = |wavelength: f64| share * (TAU / wavelength * largest + BEYOND_EDGE);
         let cutoff = cutoff(need).min(highest(BAND.0));
+        let finest_step = TAU / (highest(BAND.0) + cutoff + TRANSITION);
         let bands = (0..count)
             .step_by(count.div_ceil(BANDS))
             .map(|from| {
                 let places = from..(from + count.div_ceil(BANDS)).min(count);
                 let highest = highest(wavelengths[places.end - 1]);
-                Band { places, step: TAU / (highest + cutoff + TRANSITION) }
+                let least = (highest + cutoff + TRANSITION).ceil() as usize;
+                let per_turn = match need.beats {
+                    Beats::All => AngleSums::per_turn(least),
+                    Beats::WithinOrders => least,
+                };
+                Band { places, per_turn }
             })
             .collect();
-        Self { wavelengths, widths, cutoff, bands }
+        Self { wavelengths, widths, cutoff, finest_step, bands }
     }
 
     /// Number of directions × wavelengths over a span of angles.
     pub fn samples(&self, span: f64) -> f64 {
-        self.bands.iter().map(|band| band.places.len() as f64 * span / band.step).sum()
+        self.bands.iter().map(|band| band.places.len() as f64 * span / band.step()).sum()
     }
 }
 
@@ -183,19 +202,23 @@ fn off_resonance(wanted: f64, range: f64, index: f64) -> usize {
 /// Cut-off of the filter in angular frequency.
 fn cutoff(need: &SamplingNeed) -> f64 {
     let size_parameter = TAU * need.radius / 550e-9;
-    let (share, most) =
-        if near_axis(need) { (2.0, CUTOFF_NEAR_AXIS) } else { (CUTOFF_SHARE, CUTOFF.1) };
-    need.fineness * (share * size_parameter).clamp(CUTOFF.0, most)
+    let (share, (least, most)) = match need.beats {
+        _ if near_axis(need) => (2.0, CUTOFF_NEAR_AXIS),
+        Beats::All => (CUTOFF_SHARE, CUTOFF),
+        Beats::WithinOrders => (CUTOFF_SHARE_APART, CUTOFF_APART),
+    };
+    need.fineness * (share * size_parameter).clamp(least, most)
 }
 
 fn near_axis(need: &SamplingNeed) -> bool {
     need.angles.0 < NEAR_AXIS || need.angles.1 > PI - NEAR_AXIS
 }
 
-/// Angles that one band needs: an even grid over the asked ones and the filter's reach beyond.
-pub fn grid(from: f64, to: f64, reach: f64, step: f64) -> Vec<f64> {
-    let count = ((to - from + 2.0 * reach) / step).ceil() as usize + 1;
-    (0..count).map(|j| from - reach + j as f64 * step).filter(|t| (0.0..=PI).contains(t)).collect()
+/// Angles that one band needs, as multiples of its step: the asked ones and the filter's reach.
+pub fn grid(from: f64, to: f64, reach: f64, band: &Band) -> Range<usize> {
+    let place = |theta: f64| theta.clamp(0.0, PI) / band.step();
+    let last = (place(to + reach).ceil() as usize).min(band.per_turn / 2);
+    place(from - reach).floor() as usize..last + 1
 }
 
 /// Closest to the axis that the filter reaches no further than the axis itself.

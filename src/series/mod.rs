@@ -6,6 +6,8 @@
 pub mod angular;
 mod behind;
 pub mod debye;
+pub mod even_angles;
+pub mod lanes;
 pub mod lorenz_mie;
 pub mod mean;
 mod mean_sum;

@@ -2,7 +2,7 @@
 
 use super::{LeeArgs, LeeShape, usage};
 use crate::cli::progress;
-use gonio::lee::{self, Beats, Diagram, Drop, LeeError, Request};
+use gonio::lee::{self, Angles, Beats, Diagram, Drop, LeeError, Request};
 use gonio::medium::MediumSpec;
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Orders, Particle, Scene, SceneFile, ShapeName};
@@ -110,8 +110,8 @@ impl Raindrops {
     /// The intensities of groups of orders, added: beats between groups are too fast for the sun's
     /// disc and for colours.
     fn sum(&self, request: &Request, groups: &[Vec<u32>]) -> anyhow::Result<Diagram> {
-        let directions = |theta: &[f64]| -> Vec<(f64, f64)> {
-            theta.iter().map(|&t| (t, self.azimuth)).collect()
+        let directions = |angles: &Angles| -> Vec<(f64, f64)> {
+            angles.theta.iter().map(|&t| (t, self.azimuth)).collect()
         };
         let one = |drop: &Drop, at: &[(f64, f64)]| {
             let mut sum = vec![[0.0; 2]; at.len()];
