@@ -17,9 +17,8 @@ const BANDS: usize = 40;
 /// The angles looked at, radians: without the forward peak and its mirror image.
 const FROM: f64 = PI / 18.0;
 const TO: f64 = PI - FROM;
-/// Share of its amplitude by which a wave may be wrong that patches stand for, without the uniform
-/// formulas.
-const PATCHES: f64 = 0.3;
+/// Share of its amplitude by which a wave may be wrong that is a sum of Gaussian beams.
+const BEAMS: f64 = 0.1;
 
 /// Relative errors of the intensity from 10° to 170°.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +33,7 @@ impl FarField<'_> {
     /// The method's own estimate of its error. `inside` is the power still inside after the last
     /// order, per power on the silhouette. `None` for patches alone, whose error is not known.
     pub fn error_estimate(&self, tracer: &Tracer, inside: f64) -> Option<ErrorEstimate> {
-        let Source::Meridians(fan, patches) = &self.source else { return None };
+        let Source::Meridians(fan, beams) = &self.source else { return None };
         let x = self.size_parameter;
         // steps of an irrational ratio, so that no sample keeps to the knots
         let place = |k: usize| FROM + (TO - FROM) * (k as f64 * 0.618_033_988_749_895).fract();
@@ -44,8 +43,8 @@ impl FarField<'_> {
         let column = self.columns(&theta, &[azimuth], false).swap_remove(0);
         let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
         let left_out = inside * self.silhouette.area() * x * x / (4.0 * PI);
-        let by_patches = |i: usize| match patches {
-            Some(_) => PATCHES.powi(2) * (column.amplitude[i] - rays[i]).s11(),
+        let by_beams = |i: usize| match beams {
+            Some(_) => BEAMS.powi(2) * (column.amplitude[i] - rays[i]).s11(),
             None => 0.0,
         };
         let next_terms = x.powf(-4.0 / 3.0);
@@ -54,7 +53,7 @@ impl FarField<'_> {
             let samples = band * SAMPLES / BANDS..(band + 1) * SAMPLES / BANDS;
             let (mut wrong, mut all) = (0.0, 0.0);
             for i in samples {
-                wrong += missed[i] + left_out + by_patches(i);
+                wrong += missed[i] + left_out + by_beams(i);
                 all += column.amplitude[i].s11();
             }
             let square = (2.0 * wrong / all).min(1.0) + next_terms;

@@ -3,10 +3,10 @@
 //! Two ways lead there. The main one follows, for each order, the rays that leave in one plane (a
 //! [`meridian`]), cuts them at their landmarks ([`arc`]) into [`segment`]s with the uniform formulas of
 //! [`fold`], [`rim`] and [`edge`], interpolates them over azimuth (a [`fan`]) and adds them up in a
-//! [`sweep`] over the samples. The other, that of Sadeghi et al. 2012 and the fallback for tangled
-//! orders: sheets of rays cut into [`patch`]es, held in a [`collecting_sphere`]; [`interference`] of
-//! all patches that contain a direction; diffraction by the [`gaussian_filter`]. [`forward_wave`] is
-//! what goes straight on; [`tabulate`] makes the values of a table.
+//! [`sweep`] over the samples; orders too tangled for that are sums of [`gaussian_beams`]. The other,
+//! that of Sadeghi et al. 2012: sheets of rays cut into [`patch`]es, held in a [`collecting_sphere`];
+//! [`interference`] of all patches that contain a direction; diffraction by the [`gaussian_filter`].
+//! [`forward_wave`] is what goes straight on; [`tabulate`] makes the values of a table.
 
 pub mod arc;
 mod axis_wave;
@@ -22,6 +22,7 @@ pub mod fold;
 pub mod forward_diffraction;
 pub mod forward_peak;
 pub mod forward_wave;
+pub mod gaussian_beams;
 pub mod gaussian_filter;
 pub mod huygens_fresnel;
 pub mod interference;
@@ -41,10 +42,11 @@ pub use error_estimate::ErrorEstimate;
 
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
-use crate::trace::{Tracer, Wavefront};
+use crate::trace::Tracer;
 use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
 use forward_wave::ForwardWave;
+use gaussian_beams::GaussianBeams;
 use interference::{Interference, PathInterpolation};
 use std::f64::consts::{PI, TAU};
 use tabulate::Column;
@@ -60,8 +62,8 @@ pub struct FarField<'a> {
 /// How amplitudes are found.
 enum Source {
     Patches(CollectingSphere, Interference),
-    /// Meridians, and patches for the orders whose meridians do not correspond.
-    Meridians(Fan, Option<(CollectingSphere, Interference)>),
+    /// Meridians, and beams for the orders whose meridians do not correspond.
+    Meridians(Fan, Option<GaussianBeams>),
 }
 
 impl<'a> FarField<'a> {
@@ -82,19 +84,10 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let fan = Fan::new(tracer, settings, &silhouette);
-        let patches = (!fan.irregular.is_empty()).then(|| {
-            let rings = (FALLBACK_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
-            let wavefront =
-                Wavefront::corners(tracer.shape(), rings as usize, 2 * rings as usize, 0.0123);
-            let sheets = patch::sheets(tracer, &wavefront, &fan.irregular);
-            let size_parameter = settings.size_parameter;
-            let interpolation = PathInterpolation::Gradient;
-            let largest_jacobian = FOLD_JACOBIAN * size_parameter.cbrt();
-            let interference = Interference { size_parameter, interpolation, largest_jacobian };
-            (CollectingSphere::new(sheets), interference)
-        });
+        let tangled = (!fan.irregular.is_empty())
+            .then(|| GaussianBeams::new(tracer, &fan.irregular, settings.size_parameter));
         Self {
-            source: Source::Meridians(fan, patches),
+            source: Source::Meridians(fan, tangled),
             silhouette,
             size_parameter: settings.size_parameter,
             _shape: tracer.shape(),
@@ -139,14 +132,12 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&phi| patch_column(sphere, interference, theta, phi, incoherent))
                 .collect(),
-            Source::Meridians(fan, patches) => {
+            Source::Meridians(fan, beams) => {
                 let caustic_order = fan.caustic_order(theta);
                 let columns = fan.columns(theta, azimuths).into_iter().zip(azimuths);
                 let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
-                    if let Some((sphere, interference)) = patches {
-                        for (sum, &t) in amplitude.iter_mut().zip(theta) {
-                            *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
-                        }
+                    if let Some(beams) = beams {
+                        beams.add(theta, phi, &mut amplitude);
                     }
                     Column {
                         amplitude,
@@ -167,15 +158,13 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
                 .collect(),
-            Source::Meridians(fan, patches) => {
-                let mut amplitudes = scatter_by_columns(fan, directions);
-                if let Some((sphere, interference)) = patches {
-                    for (sum, &(t, p)) in amplitudes.iter_mut().zip(directions) {
-                        *sum += interference.collect(sphere, &Direction::new(t, p)).amplitude;
-                    }
+            Source::Meridians(fan, beams) => scatter_by_columns(directions, |theta, phi| {
+                let mut column = fan.columns(theta, &[phi]).swap_remove(0);
+                if let Some(beams) = beams {
+                    beams.add(theta, phi, &mut column);
                 }
-                amplitudes
-            }
+                column
+            }),
         };
         if diffraction {
             let forward = self.forward_wave();
@@ -212,13 +201,11 @@ fn patch_column(
     column
 }
 
-/// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`.
-const FOLD_JACOBIAN: f64 = 0.5;
-/// Rings of the patch grid for irregular orders at a tolerance of 1 %.
-const FALLBACK_RINGS: f64 = 90.0;
-
-/// Directions grouped into columns of equal azimuth, each swept in ascending θ.
-fn scatter_by_columns(fan: &Fan, directions: &[(f64, f64)]) -> Vec<AmplitudeMatrix> {
+/// Directions grouped into columns of equal azimuth in [0, π], each computed in ascending θ.
+fn scatter_by_columns(
+    directions: &[(f64, f64)],
+    column: impl Fn(&[f64], f64) -> Vec<AmplitudeMatrix>,
+) -> Vec<AmplitudeMatrix> {
     let folded = |phi: f64| {
         let turned = phi.rem_euclid(TAU);
         if turned > PI { (TAU - turned, true) } else { (turned, false) }
@@ -232,8 +219,7 @@ fn scatter_by_columns(fan: &Fan, directions: &[(f64, f64)]) -> Vec<AmplitudeMatr
     let mut amplitudes = vec![AmplitudeMatrix::default(); directions.len()];
     for group in order.chunk_by(|a, b| key(a).0 == key(b).0) {
         let theta: Vec<f64> = group.iter().map(|&i| directions[i].0).collect();
-        let column = fan.columns(&theta, &[key(&group[0]).0]).swap_remove(0);
-        for (&i, mut amplitude) in group.iter().zip(column) {
+        for (&i, mut amplitude) in group.iter().zip(column(&theta, key(&group[0]).0)) {
             if folded(directions[i].1).1 {
                 (amplitude.s3, amplitude.s4) = (-amplitude.s3, -amplitude.s4);
             }

@@ -1,0 +1,378 @@
+//! Sums of Gaussian beams, for orders whose rays are tangled.
+//!
+//! Where more than two rays coalesce (cusps, umbilics, the webs that strongly flattened drops make of
+//! high orders) no formula for single rays or pairs holds, but the wave is still an integral over the
+//! launch points of its rays (Kirchhoff, on a plane normal to each exit direction at distance `d`),
+//! `S(n) = -(x²/2π) ∬ T √|A| e^{-iπm/2} exp(ix [W + r·(s - n)]) d²y`, `A = |∂r/∂y|`.
+//! Launch points are cut into Gaussians of width `σ/√x` that add up to 1; each sees a phase of second
+//! degree, `M = (∂r/∂y)ᵀ(∂s/∂y)`, so that its integral is a Gaussian of directions about its exit ray:
+//! finite and smooth at every caustic. The error is that of third derivatives, of the order of
+//! `σ³/√x`. (Popov 1982; Heller 1991.)
+//!
+//! Launch coordinates `y` go with the angle of incidence, `|y| = arcsin` of the way to the rim, in
+//! which phases stay smooth up to the rim. Beyond it nothing is launched.
+
+use super::direction::Direction;
+use crate::math::phase::sin_cos_turns;
+use crate::math::vec3::{Field, Vec3};
+use crate::optics::AmplitudeMatrix;
+use crate::shape::Silhouette;
+use crate::trace::{Exit, Tracer, transfer};
+use num_complex::Complex64;
+use rayon::prelude::*;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// All beams of some orders, of launch points on one side of the mirror plane.
+pub struct GaussianBeams {
+    size_parameter: f64,
+    beams: Vec<Beam>,
+    /// For each sector of exit azimuths, where its beams begin in `members`.
+    starts: Vec<usize>,
+    members: Vec<u32>,
+}
+
+/// A beam about one exit ray.
+#[derive(Clone, Debug)]
+struct Beam {
+    direction: Vec3<f64>,
+    /// Point of the exit ray that phases refer to, and path, in units of the radius.
+    reference: Vec3<f64>,
+    path: f64,
+    /// `∂r/∂y`.
+    moved: [Vec3<f64>; 2],
+    /// Second derivatives of the phase by `y` in the ray's own direction: (1, 1), (2, 2), (1, 2); and
+    /// `∂²r/∂y²`, along which they change with direction.
+    bend: [f64; 3],
+    bent: [Vec3<f64>; 3],
+    /// Fields for incident light along x and y, all factors in them.
+    field: [Field; 2],
+    /// Largest angle from the exit ray at which it counts.
+    reach: f64,
+}
+
+/// Width of the Gaussians of launch points, in `1/√x`, and their distance in widths: their sum is
+/// even to 1e-4.
+const WIDTH: f64 = 0.8;
+const STEP: f64 = 1.5;
+/// Exponent at which a beam no longer counts, and farthest angle at which one is looked at.
+const FARTHEST_EXPONENT: f64 = 9.0;
+const FARTHEST: f64 = 10.0;
+/// Fields weaker than this share of the strongest of their order are left out.
+const WEAKEST: f64 = 1e-4;
+/// Distance of the neighbours that tell second derivatives.
+const APART: f64 = 1e-3;
+/// Sectors of azimuth in a whole turn.
+const SECTORS: usize = 720;
+
+impl GaussianBeams {
+    /// Trace the beams of some orders.
+    pub fn new(tracer: &Tracer, orders: &[u32], size_parameter: f64) -> Self {
+        let silhouette = tracer.shape().silhouette().tabulated();
+        let step = STEP * WIDTH / size_parameter.sqrt();
+        let rows = (1.0 / step).ceil() as i64;
+        let beam_at = |tracer: &Tracer,
+                       silhouette: &Silhouette,
+                       order,
+                       launch: &Launch,
+                       place: [f64; 2],
+                       step| {
+            let exit =
+                |launch: &Launch| tracer.trace_order(launch.point[0], launch.point[1], order);
+            let beside = |k: usize, sign: f64| {
+                let mut place = place;
+                place[k] += sign * APART;
+                let launch = Launch::at(silhouette, place)?;
+                Some((exit(&launch)?, launch))
+            };
+            let both = |k: usize| Some([beside(k, -1.0)?, beside(k, 1.0)?]);
+            let own: Exit<f64> = exit(launch)?;
+            Beam::new(&own, launch, &[both(0)?, both(1)?], APART, step, size_parameter)
+        };
+        let row = |j: i64| {
+            let mut found: Vec<(u32, Beam)> = Vec::new();
+            for i in -rows..rows {
+                // rows lie half a step off the mirror plane, which pairs them
+                let place = [(i as f64 + 0.5) * step, (j as f64 + 0.5) * step];
+                let Some(launch) = Launch::at(&silhouette, place) else { continue };
+                for &order in orders {
+                    let beam = beam_at(tracer, &silhouette, order, &launch, place, step);
+                    found.extend(beam.map(|beam| (order, beam)));
+                }
+            }
+            found
+        };
+        let all: Vec<(u32, Beam)> = (0..rows).into_par_iter().flat_map_iter(row).collect();
+        let strongest = |order: u32| {
+            let of_order = all.iter().filter(|(p, _)| *p == order);
+            of_order.map(|(_, beam)| beam.strength()).fold(0.0, f64::max)
+        };
+        let floors: Vec<(u32, f64)> =
+            orders.iter().map(|&order| (order, WEAKEST * strongest(order))).collect();
+        let counts = |(order, beam): &(u32, Beam)| {
+            floors.iter().any(|(p, floor)| p == order && beam.strength() > *floor)
+        };
+        let beams = all.into_iter().filter(counts).map(|(_, beam)| beam).collect();
+        Self::sorted(beams, size_parameter)
+    }
+
+    /// With the sectors of azimuth that each beam reaches.
+    fn sorted(beams: Vec<Beam>, size_parameter: f64) -> Self {
+        let mut counts = vec![0usize; SECTORS + 1];
+        for beam in &beams {
+            beam.sectors(|sector| counts[sector + 1] += 1);
+        }
+        let starts: Vec<usize> = counts
+            .into_iter()
+            .scan(0, |sum, count| {
+                *sum += count;
+                Some(*sum)
+            })
+            .collect();
+        let mut next = starts.clone();
+        let mut members = vec![0u32; starts[SECTORS]];
+        for (number, beam) in beams.iter().enumerate() {
+            beam.sectors(|sector| {
+                members[next[sector]] = number as u32;
+                next[sector] += 1;
+            });
+        }
+        Self { size_parameter, beams, starts, members }
+    }
+
+    /// Add the waves in some directions of one azimuth, scattering angles ascending.
+    pub fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
+        let directions: Vec<Direction> = theta.iter().map(|&t| Direction::new(t, phi)).collect();
+        self.add_side(theta, &directions, phi, |i, wave| sums[i] += wave);
+        // beams of the other side are mirror images
+        let mirrored: Vec<Direction> = theta.iter().map(|&t| Direction::new(t, -phi)).collect();
+        self.add_side(theta, &mirrored, -phi, |i, mut wave| {
+            (wave.s3, wave.s4) = (-wave.s3, -wave.s4);
+            sums[i] += wave;
+        });
+    }
+
+    fn add_side(
+        &self,
+        theta: &[f64],
+        directions: &[Direction],
+        phi: f64,
+        mut add: impl FnMut(usize, AmplitudeMatrix),
+    ) {
+        let sector = sector_of(phi);
+        for &number in &self.members[self.starts[sector]..self.starts[sector + 1]] {
+            let beam = &self.beams[number as usize];
+            let centre = beam.direction.x.hypot(beam.direction.y).atan2(beam.direction.z);
+            let from = theta.partition_point(|&t| t < centre - beam.reach);
+            for (i, direction) in directions.iter().enumerate().skip(from) {
+                if direction.theta > centre + beam.reach {
+                    break;
+                }
+                if let Some(wave) = beam.towards(direction, self.size_parameter) {
+                    add(i, wave);
+                }
+            }
+        }
+    }
+}
+
+fn sector_of(phi: f64) -> usize {
+    ((phi.rem_euclid(TAU) / TAU * SECTORS as f64) as usize).min(SECTORS - 1)
+}
+
+/// A launch point and its derivatives by `y`.
+struct Launch {
+    point: [f64; 2],
+    /// `∂(u, v)/∂y`, one column for each coordinate of `y`.
+    columns: [[f64; 2]; 2],
+    determinant: f64,
+}
+
+impl Launch {
+    /// The point that belongs to `y`; `None` beyond the rim.
+    fn at(silhouette: &Silhouette, y: [f64; 2]) -> Option<Self> {
+        let t = y[0].hypot(y[1]);
+        if t >= 1.0 {
+            return None;
+        }
+        let (cos, sin) = (y[0] / t, y[1] / t);
+        let (radius, slope) = silhouette.radius_and_slope(sin.atan2(cos));
+        let third = (1.0 - t * t).cbrt();
+        let share = (1.0 - third.powi(4)).sqrt();
+        let rate = 4.0 / 3.0 * t * third / share;
+        // along the ray from the centre, and across it
+        let along = [rate * radius * cos, rate * radius * sin];
+        let turn = share / t;
+        let across = [turn * (slope * cos - radius * sin), turn * (slope * sin + radius * cos)];
+        let column = |a: f64, b: f64| [along[0] * a + across[0] * b, along[1] * a + across[1] * b];
+        Some(Self {
+            point: [share * radius * cos, share * radius * sin],
+            columns: [column(cos, -sin), column(sin, cos)],
+            determinant: radius * radius * turn * rate,
+        })
+    }
+
+    /// Derivatives by `y` from those by `(u, v)`.
+    fn by_place(&self, by_point: &[Vec3<f64>; 2]) -> [Vec3<f64>; 2] {
+        self.columns.map(|[a, b]| by_point[0] * a + by_point[1] * b)
+    }
+}
+
+impl Beam {
+    /// From an exit ray and those a little beside it, on both sides of either coordinate. `None`
+    /// where nothing finite comes out.
+    fn new(
+        exit: &Exit<f64>,
+        launch: &Launch,
+        beside: &[[(Exit<f64>, Launch); 2]; 2],
+        apart: f64,
+        step: f64,
+        x: f64,
+    ) -> Option<Self> {
+        let moved = moved(exit, launch);
+        let turned = launch.by_place(&exit.ds);
+        let rate = |k: usize| {
+            let [before, after] =
+                beside[k].each_ref().map(|(exit, launch)| self::moved(exit, launch));
+            [0, 1].map(|l| (after[l] - before[l]) * (0.5 / apart))
+        };
+        let (by_first, by_second) = (rate(0), rate(1));
+        let bent = [by_first[0], by_second[1], (by_first[1] + by_second[0]) * 0.5];
+        let bend = [
+            moved[0].dot(turned[0]),
+            moved[1].dot(turned[1]),
+            0.5 * (moved[0].dot(turned[1]) + moved[1].dot(turned[0])),
+        ];
+        let s = exit.direction;
+        let determinant = s.dot(moved[0].cross(moved[1]));
+        let lines = exit.focal_lines.saturating_sub(lines_ahead(moved, turned, s));
+        let size =
+            -(x * step / WIDTH).powi(2) / TAU * (launch.determinant * determinant.abs()).sqrt();
+        let factor = Complex64::cis(-FRAC_PI_2 * f64::from(lines)) * size;
+        let scaled = |f: Field| Vec3 { x: f.x * factor, y: f.y * factor, z: f.z * factor };
+        let mut beam = Self {
+            direction: s,
+            reference: exit.reference,
+            path: exit.path,
+            moved,
+            bend,
+            bent,
+            field: exit.field.map(scaled),
+            reach: 0.0,
+        };
+        beam.reach = beam.reach(x);
+        (beam.strength().is_finite() && beam.reach.is_finite()).then_some(beam)
+    }
+
+    /// Angle from the exit ray at which the exponent has fallen enough.
+    fn reach(&self, x: f64) -> f64 {
+        let form = Form::new(self.bend);
+        let [e, f] = frame(self.direction);
+        let at = |d: Vec3<f64>| 0.5 * x * form.over(self.moved.map(|m| m.dot(d))).re;
+        let (p, q) = (at(e), at(f));
+        let r = 0.5 * (at(e + f) - p - q);
+        let slowest = 0.5 * (p + q) - (0.5 * (p - q)).hypot(r);
+        (FARTHEST_EXPONENT / slowest.max(1e-9)).sqrt().min(FARTHEST / x.sqrt())
+    }
+
+    fn strength(&self) -> f64 {
+        let square = |f: &Field| f.x.norm_sqr() + f.y.norm_sqr() + f.z.norm_sqr();
+        self.field.iter().map(square).sum::<f64>().sqrt()
+    }
+
+    /// Its wave in a direction, if it reaches there.
+    fn towards(&self, direction: &Direction, x: f64) -> Option<AmplitudeMatrix> {
+        let off = direction.unit - self.direction;
+        if off.dot(off) > self.reach * self.reach {
+            return None;
+        }
+        let bend = [0, 1, 2].map(|k| self.bend[k] - self.bent[k].dot(off));
+        let form = Form::new(bend);
+        let exponent = form.over(self.moved.map(|m| m.dot(off))) * (0.5 * x);
+        let phase = x * (self.path - self.reference.dot(off)) - exponent.im;
+        let (sin, cos) = sin_cos_turns(phase / TAU);
+        let size = (-exponent.re).exp();
+        let matrix = transfer(
+            &self.field,
+            direction.theta_hat,
+            direction.phi_hat,
+            direction.cos_phi,
+            direction.sin_phi,
+        );
+        Some(matrix * (Complex64::new(size * cos, size * sin) / form.root))
+    }
+
+    /// Hand every sector of azimuth that it reaches to `visit`.
+    fn sectors(&self, mut visit: impl FnMut(usize)) {
+        let sin = self.direction.x.hypot(self.direction.y);
+        let theta = sin.atan2(self.direction.z);
+        let centre = self.direction.y.atan2(self.direction.x);
+        let half = if theta.min(PI - theta) <= self.reach {
+            PI
+        } else {
+            (self.reach.sin() / sin).min(1.0).asin()
+        };
+        let width = TAU / SECTORS as f64;
+        let from = ((centre - half) / width).floor() as i64;
+        let to = ((centre + half) / width).floor() as i64;
+        let to = to.min(from + SECTORS as i64 - 1);
+        for sector in from..=to {
+            visit(sector.rem_euclid(SECTORS as i64) as usize);
+        }
+    }
+}
+
+/// Two unit vectors normal to a direction and to each other.
+fn frame(s: Vec3<f64>) -> [Vec3<f64>; 2] {
+    let aside = if s.z.abs() < 0.9 {
+        Vec3 { x: 0.0, y: 0.0, z: 1.0 }
+    } else {
+        Vec3 { x: 1.0, y: 0.0, z: 0.0 }
+    };
+    let first = aside.cross(s).normalized();
+    [first, s.cross(first)]
+}
+
+/// The inverse of `1/σ² - iM`, and the root of its determinant.
+struct Form {
+    inverse: [Complex64; 3],
+    root: Complex64,
+}
+
+impl Form {
+    fn new([m11, m22, m12]: [f64; 3]) -> Self {
+        const TIGHT: f64 = 1.0 / (WIDTH * WIDTH);
+        let entry = |m: f64| Complex64::new(TIGHT, -m);
+        let (a, b, c) = (entry(m11), entry(m22), Complex64::new(0.0, -m12));
+        let determinant = a * b - c * c;
+        // both eigenvalues have the same positive real part: a root for each
+        let (mean, half) = (0.5 * (m11 + m22), 0.5 * (m11 - m22).hypot(2.0 * m12));
+        let root = entry(mean + half).sqrt() * entry(mean - half).sqrt();
+        Self { inverse: [b, a, -c].map(|v| v / determinant), root }
+    }
+
+    /// `qᵀ (1/σ² - iM)⁻¹ q`.
+    fn over(&self, [p, q]: [f64; 2]) -> Complex64 {
+        self.inverse[0] * (p * p) + self.inverse[1] * (q * q) + self.inverse[2] * (2.0 * p * q)
+    }
+}
+
+/// `∂r/∂y` of the foot of the perpendicular from the centre on the exit ray.
+fn moved(exit: &Exit<f64>, launch: &Launch) -> [Vec3<f64>; 2] {
+    let s = exit.direction;
+    let whole = [0, 1].map(|k| exit.dx[k] - s * exit.reference.dot(exit.ds[k]));
+    launch.by_place(&whole)
+}
+
+/// Focal lines that a ray passes beyond the plane through the centre: roots of `det(r + ts)`.
+fn lines_ahead(moved: [Vec3<f64>; 2], turned: [Vec3<f64>; 2], s: Vec3<f64>) -> u32 {
+    let det = |a: Vec3<f64>, b: Vec3<f64>| s.dot(a.cross(b));
+    let (a, c) = (det(turned[0], turned[1]), det(moved[0], moved[1]));
+    let b = det(moved[0], turned[1]) + det(turned[0], moved[1]);
+    let discriminant = b * b - 4.0 * a * c;
+    let ahead = |t: f64| u32::from(t.is_finite() && t > 0.0);
+    if discriminant < 0.0 {
+        return 0;
+    }
+    let half = -0.5 * (b + b.signum() * discriminant.sqrt());
+    ahead(half / a) + ahead(c / half)
+}
