@@ -1,8 +1,9 @@
 //! Tracing the meridians of an order at several azimuths, and cutting them into segments that
 //! correspond: the same landmarks, the same knots.
 
-use super::arc::{Arc, ArcLayout};
+use super::arc::{Arc, ArcLayout, FoldLayout};
 use super::axis_wave::AxisWave;
+use super::bow_wave;
 use super::meridian::{Meridian, Node, axial_ray};
 use super::segment::{Kind, Knot, Segment};
 use crate::trace::Tracer;
@@ -62,9 +63,9 @@ pub(super) fn trace(
                 if symmetric { found.first()?.axis_waves(&layout) } else { Vec::new() };
             return Some(Traced { meridians, layout, about_axis });
         }
-        layout.folds.iter_mut().for_each(|(dark, reach)| {
-            *dark *= 0.6;
-            *reach *= 0.95;
+        layout.folds.iter_mut().for_each(|fold| {
+            fold.dark *= 0.6;
+            fold.lit *= 0.95;
         });
     }
     None
@@ -80,17 +81,18 @@ fn most_missing(count: usize) -> usize {
 const SHRINKS: usize = 6;
 
 /// Reach on the dark and lit side of each fold, common to all meridians.
-fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {
+fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<FoldLayout> {
     let measured: Vec<Vec<(f64, f64)>> = arcs.iter().map(|arc| arc.folds(axis_gap)).collect();
     let count = measured.first().map_or(0, Vec::len);
     let unit = size_parameter.powf(-2.0 / 3.0);
     (0..count)
         .map(|f| {
             let weakest = measured.iter().map(|m| m[f].0).fold(f64::MAX, f64::min);
+            let strongest = measured.iter().map(|m| m[f].0).fold(0.0, f64::max);
             let room = measured.iter().map(|m| m[f].1).fold(f64::MAX, f64::min);
             let dark = (DARK_ZETA * unit / weakest).min(LONGEST_DARK);
-            let reach = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
-            (dark, reach)
+            let lit = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
+            FoldLayout { dark, lit, per_angle: strongest / unit, integral: None }
         })
         .collect()
 }
@@ -98,13 +100,19 @@ fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, 
 /// All segments of all meridians, with common numbers of knots.
 fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, ArcLayout)> {
     type Ends = Vec<[Node; 2]>;
-    let ends: Vec<Option<Ends>> =
-        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect();
+    let find_ends = |layout: &ArcLayout| -> Vec<Option<Ends>> {
+        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect()
+    };
+    let mut layout = layout.clone();
+    let mut ends = find_ends(&layout);
+    if mark_integrals(arcs, &ends, &mut layout) {
+        ends = find_ends(&layout);
+    }
     let plain_count = ends.iter().flatten().next()?.len();
     let pieces = |s: usize| {
         ends.iter().flatten().map(|e| Arc::pieces(&e[s], layout.density)).max().unwrap_or(0)
     };
-    let layout = ArcLayout { knots: (0..plain_count).map(pieces).collect(), ..layout.clone() };
+    layout.knots = (0..plain_count).map(pieces).collect();
     let segments = |(arc, ends): (&Option<Arc>, &Option<Ends>)| -> Option<Vec<Segment>> {
         arc.as_ref()?.segments(&layout, ends.as_ref()?)
     };
@@ -126,6 +134,25 @@ pub(super) fn another(
     let centre = axial_ray(tracer, order);
     let arc = Arc::new(Meridian::new(tracer, order, azimuth, centre), &silhouette, layout)?;
     arc.segments(layout, &arc.ends(layout)?)
+}
+
+/// Make integrals of the folds whose rays come near total reflection on any meridian, and keep them to
+/// where all meridians' impacts serve. Whether there are any.
+fn mark_integrals(
+    arcs: &[Option<Arc>],
+    ends: &[Option<Vec<[Node; 2]>>],
+    layout: &mut ArcLayout,
+) -> bool {
+    let found = || arcs.iter().zip(ends).filter_map(|(arc, ends)| arc.as_ref().zip(ends.as_ref()));
+    let critical: Vec<Vec<bool>> = found().map(|(arc, ends)| arc.critical_folds(ends)).collect();
+    for (f, fold) in layout.folds.iter_mut().enumerate() {
+        if critical.iter().any(|arc| arc[f]) {
+            let reach = found().map(|(arc, _)| arc.integral_reach(f)).fold(f64::MAX, f64::min);
+            fold.lit = fold.lit.min(reach);
+            fold.integral = Some(bow_wave::knots([fold.dark, fold.lit], fold.per_angle));
+        }
+    }
+    layout.folds.iter().any(|fold| fold.integral.is_some())
 }
 
 /// Fill meridians that were not found from the nearest on both sides. `None` when too many or an

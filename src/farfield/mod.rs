@@ -10,6 +10,7 @@
 
 pub mod arc;
 mod axis_wave;
+mod bow_wave;
 pub mod collecting_sphere;
 mod corresponding;
 pub mod direction;
