@@ -31,6 +31,7 @@ pub mod patch;
 pub mod rim;
 mod rim_integrand;
 mod rim_rays;
+mod roughness;
 pub mod segment;
 pub mod sweep;
 pub mod tabulate;
