@@ -266,7 +266,7 @@ impl<'a> Arc<'a> {
                 segments.push(match &about.integral {
                     Some(places) => {
                         let rays = [&ends[k - 1][1], &ends[k][0]];
-                        let stretch = self.stretch(fold, k)?;
+                        let stretch = self.stretch(fold, k, layout.size_parameter)?;
                         bow_wave::segment(
                             self,
                             fold,
@@ -335,20 +335,26 @@ impl<'a> Arc<'a> {
         })
     }
 
-    /// For each fold: whether rays of its segment come near total reflection inside.
-    pub(super) fn critical_folds(&self, ends: &[[Node; 2]]) -> Vec<bool> {
-        let critical = |(k, fold): (usize, &Fold)| {
-            let middle = self.interpolated(fold.alpha);
-            let rays: Vec<Node> = [ends[k - 1][1], ends[k][0]].into_iter().chain(middle).collect();
-            bow_wave::meets_total_reflection(self, &rays)
+    /// For each fold: angle from it to the nearest ray of its segment that comes near total reflection
+    /// inside; infinite where none does.
+    pub(super) fn critical_angles(&self, ends: &[[Node; 2]]) -> Vec<f64> {
+        let nearest = |(k, fold): (usize, &Fold)| {
+            let [first, last] = [ends[k - 1][1], ends[k][0]];
+            let between = |ray: &&Node| first.alpha < ray.alpha && ray.alpha < last.alpha;
+            let scanned = self.nodes.iter().filter(between).copied();
+            let rays = scanned.chain([first, last]).chain(self.interpolated(fold.alpha));
+            rays.filter(|ray| bow_wave::meets_total_reflection(self, ray))
+                .map(|ray| (ray.angle - fold.angle).abs())
+                .fold(f64::INFINITY, f64::min)
         };
-        self.numbered_folds().map(critical).collect()
+        self.numbered_folds().map(nearest).collect()
     }
 
-    /// How far an integral over impacts reaches on the lit side of fold `number`.
-    pub(super) fn integral_reach(&self, number: usize) -> f64 {
-        let fold = self.numbered_folds().nth(number);
-        fold.and_then(|(k, fold)| self.stretch(fold, k)).map_or(0.0, |stretch| stretch.reach)
+    /// How far an integral over impacts reaches on the lit side of fold `number`. `None` where it
+    /// does not serve.
+    pub(super) fn integral_reach(&self, number: usize, size_parameter: f64) -> Option<f64> {
+        let (k, fold) = self.numbered_folds().nth(number)?;
+        Some(self.stretch(fold, k, size_parameter)?.reach)
     }
 
     /// The folds and their numbers among the landmarks.
@@ -359,9 +365,9 @@ impl<'a> Arc<'a> {
         })
     }
 
-    fn stretch(&self, fold: &Fold, k: usize) -> Option<Stretch> {
+    fn stretch(&self, fold: &Fold, k: usize, size_parameter: f64) -> Option<Stretch> {
         let limits = [self.launch(&self.landmarks[k - 1])?, self.launch(&self.landmarks[k + 1])?];
-        Stretch::about(self, fold, limits)
+        Stretch::about(self, fold, limits, size_parameter)
     }
 
     fn pair_segment(

@@ -19,6 +19,7 @@ use std::f64::consts::TAU;
 
 /// Squared cosine outside below which the coefficients of reflection run too fast for a series.
 const NEAR_CRITICAL: f64 = 0.02;
+const BELOW_ENTRY: f64 = 0.5;
 /// Fresnel zones of a ray within the taper, and the share of the launch points before it.
 const FRESNEL_ZONES: f64 = 12.0;
 const MOST_ROOM: f64 = 0.9;
@@ -27,6 +28,8 @@ const MOST_ROOM: f64 = 0.9;
 /// the grazing angle.
 const DEGREE: usize = 10;
 const SPARE: f64 = 0.25;
+/// How far they may be continued, over the stretch from the fold to the last ray they pass through.
+const MOST_CONTINUED: f64 = 2.0;
 /// Spread across the meridian, over that at the fold, from which on impacts serve as coordinates.
 const LEAST_SPREAD: f64 = 0.4;
 /// Shares of the way to the rays that no longer serve, within and beyond the fold, that may be used.
@@ -37,19 +40,20 @@ const OUTER_SHARE: f64 = 0.9;
 const KNOTS_PER_PERIOD: f64 = 8.0;
 const KNOTS_PER_UNIT: f64 = 2.0;
 
-/// Whether any of these rays meets the surface inside near or beyond the critical angle.
-pub(super) fn meets_total_reflection(arc: &Arc, rays: &[Node]) -> bool {
+/// Whether a ray meets the surface inside near or beyond the critical angle, other than by being near
+/// the rim.
+pub(super) fn meets_total_reflection(arc: &Arc, ray: &Node) -> bool {
     let meridian = arc.meridian();
     let order = meridian.order as usize;
-    if order < 2 {
+    if order < 2 || meridian.tracer.shape().rotational_symmetry() {
         return false;
     }
     let mut meetings = Vec::new();
-    rays.iter().any(|ray| {
-        let [u, v] = ray.place;
-        meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings);
-        meetings.iter().take(order).skip(1).any(|m| m.cos_squared_outside < NEAR_CRITICAL)
-    })
+    let [u, v] = ray.place;
+    meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings);
+    let Some(entry) = meetings.first() else { return false };
+    let critical = NEAR_CRITICAL.min(BELOW_ENTRY * entry.cos_squared_outside);
+    meetings.iter().take(order).skip(1).any(|m| m.cos_squared_outside < critical)
 }
 
 /// The stretch of launch points about a fold along which impacts serve as coordinates.
@@ -63,8 +67,9 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// Between the landmarks before and behind the fold.
-    pub(super) fn about(arc: &Arc, fold: &Fold, limits: [f64; 2]) -> Option<Self> {
+    /// Between the landmarks before and behind the fold. `None` where the polynomials would have to
+    /// be continued too far.
+    pub(super) fn about(arc: &Arc, fold: &Fold, limits: [f64; 2], x: f64) -> Option<Self> {
         let across = |ray: &Node| arc.meridian().spread_across(&ray.exit, ray.angle);
         let least = LEAST_SPREAD * across(&arc.ray_at(fold.alpha.sin())?);
         let serves = |ray: &&Node| across(ray) * least.signum() > least.abs();
@@ -81,7 +86,8 @@ impl Stretch {
         if last.alpha.sin() < to {
             (to, reach) = (last.alpha.sin(), reach.min(OUTER_SHARE * off(last)));
         }
-        Some(Self { from, to, reach })
+        let continued = TUNNEL * x.powf(-2.0 / 3.0) + limits[1] - to;
+        (continued < MOST_CONTINUED * (to - fold.alpha.sin())).then_some(Self { from, to, reach })
     }
 }
 

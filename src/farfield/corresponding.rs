@@ -17,6 +17,11 @@ const DARK_ZETA: f64 = 7.5;
 const LONGEST_REACH: f64 = 0.3;
 const LONGEST_DARK: f64 = 0.45;
 
+/// Share of the angle from a fold to the nearest ray near total reflection that its pair may use, and
+/// the argument of its Airy functions that it must reach.
+const CLEARANCE: f64 = 0.9;
+const SHORTEST_ZETA: f64 = 6.0;
+
 /// What is traced of an order.
 pub(super) struct Traced {
     pub meridians: Vec<Vec<Segment>>,
@@ -105,7 +110,7 @@ fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, A
     };
     let mut layout = layout.clone();
     let mut ends = find_ends(&layout);
-    if mark_integrals(arcs, &ends, &mut layout) {
+    if avoid_total_reflection(arcs, &ends, &mut layout) {
         ends = find_ends(&layout);
     }
     let plain_count = ends.iter().flatten().next()?.len();
@@ -136,23 +141,37 @@ pub(super) fn another(
     arc.segments(layout, &arc.ends(layout)?)
 }
 
-/// Make integrals of the folds whose rays come near total reflection on any meridian, and keep them to
-/// where all meridians' impacts serve. Whether there are any.
-fn mark_integrals(
+/// Keep folds' segments from rays near total reflection, on all meridians: those that would be left too
+/// short for single rays beyond become integrals, as far as all meridians' impacts serve. Whether
+/// any changed.
+fn avoid_total_reflection(
     arcs: &[Option<Arc>],
     ends: &[Option<Vec<[Node; 2]>>],
     layout: &mut ArcLayout,
 ) -> bool {
     let found = || arcs.iter().zip(ends).filter_map(|(arc, ends)| arc.as_ref().zip(ends.as_ref()));
-    let critical: Vec<Vec<bool>> = found().map(|(arc, ends)| arc.critical_folds(ends)).collect();
+    let critical: Vec<Vec<f64>> = found().map(|(arc, ends)| arc.critical_angles(ends)).collect();
+    let mut changed = false;
     for (f, fold) in layout.folds.iter_mut().enumerate() {
-        if critical.iter().any(|arc| arc[f]) {
-            let reach = found().map(|(arc, _)| arc.integral_reach(f)).fold(f64::MAX, f64::min);
-            fold.lit = fold.lit.min(reach);
+        let nearest = CLEARANCE * critical.iter().map(|arc| arc[f]).fold(f64::INFINITY, f64::min);
+        if nearest > fold.lit {
+            continue;
+        }
+        changed = true;
+        if nearest * fold.per_angle > SHORTEST_ZETA {
+            fold.lit = nearest;
+            continue;
+        }
+        let reach = |(arc, _): (&Arc, _)| arc.integral_reach(f, layout.size_parameter);
+        let reaches: Option<Vec<f64>> = found().map(reach).collect();
+        let Some(reaches) = reaches else { continue };
+        let reach = reaches.into_iter().fold(fold.lit, f64::min);
+        if reach * fold.per_angle > SHORTEST_ZETA {
+            fold.lit = reach;
             fold.integral = Some(bow_wave::knots([fold.dark, fold.lit], fold.per_angle));
         }
     }
-    layout.folds.iter().any(|fold| fold.integral.is_some())
+    changed
 }
 
 /// Fill meridians that were not found from the nearest on both sides. `None` when too many or an

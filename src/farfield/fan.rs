@@ -82,7 +82,7 @@ const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
 /// How far meridians may differ from what their neighbours make of them (see [`roughness`]) to be
 /// interpolated over azimuth; else those asked for are traced one by one. Interpolation between them
 /// has steps half as long and more neighbours, and errs by a small part of that.
-const ROUGHEST: f64 = 0.5;
+const ROUGHEST: f64 = 0.2;
 /// The last order that is worth it: higher ones are weak, and their waves have many knots.
 const LAST_CHECKED: u32 = 3;
 /// Neighbours in the interpolation over azimuth.
