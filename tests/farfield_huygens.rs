@@ -172,6 +172,7 @@ fn secondary_bow_next_to_total_reflection() {
         (0.71, 45.0, 126.0, 134.0),
         (0.71, 180.0, 125.0, 130.0),
         (0.82, 0.0, 133.5, 139.0),
+        (0.9, 180.0, 124.0, 131.0),
     ];
     for (radius, azimuth, from, to) in cases {
         let (radius, phi) = (radius * 1e-3, f64::to_radians(azimuth));

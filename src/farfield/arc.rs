@@ -263,18 +263,14 @@ impl<'a> Arc<'a> {
         for (k, (pair, count)) in self.landmarks.windows(2).zip(&layout.knots).enumerate() {
             if let Landmark::Fold(fold) = &pair[0] {
                 let about = folds.next()?;
-                segments.push(match &about.integral {
-                    Some(places) => {
+                let x = layout.size_parameter;
+                let stretch = || self.stretch(fold, k, x);
+                let integral =
+                    about.integral.as_ref().and_then(|places| Some((places, stretch()?)));
+                segments.push(match integral {
+                    Some((places, stretch)) => {
                         let rays = [&ends[k - 1][1], &ends[k][0]];
-                        let stretch = self.stretch(fold, k, layout.size_parameter)?;
-                        bow_wave::segment(
-                            self,
-                            fold,
-                            &stretch,
-                            rays,
-                            places,
-                            layout.size_parameter,
-                        )?
+                        bow_wave::segment(self, fold, &stretch, rays, places, x)?
                     }
                     None => self.pair_segment(fold, about.dark, about.lit, layout)?,
                 });

@@ -20,6 +20,8 @@ use std::f64::consts::TAU;
 /// Squared cosine outside below which the coefficients of reflection run too fast for a series.
 const NEAR_CRITICAL: f64 = 0.02;
 const BELOW_ENTRY: f64 = 0.5;
+/// The last order that is served: the bows of higher ones are made too near the rim.
+const LAST_ORDER: usize = 3;
 /// Fresnel zones of a ray within the taper, and the share of the launch points before it.
 const FRESNEL_ZONES: f64 = 12.0;
 const MOST_ROOM: f64 = 0.9;
@@ -29,12 +31,11 @@ const MOST_ROOM: f64 = 0.9;
 const DEGREE: usize = 10;
 const SPARE: f64 = 0.25;
 /// How far they may be continued, over the stretch from the fold to the last ray they pass through.
-const MOST_CONTINUED: f64 = 2.0;
+const MOST_CONTINUED: f64 = 0.8;
 /// Spread across the meridian, over that at the fold, from which on impacts serve as coordinates.
 const LEAST_SPREAD: f64 = 0.4;
-/// Shares of the way to the rays that no longer serve, within and beyond the fold, that may be used.
+/// Share of the angle to the inner rays that no longer serve that may be used.
 const INNER_SHARE: f64 = 0.6;
-const OUTER_SHARE: f64 = 0.9;
 /// Knots per period of either ray's wave against the mean path, and per unit of the Airy function's
 /// argument next to the fold.
 const KNOTS_PER_PERIOD: f64 = 8.0;
@@ -45,7 +46,7 @@ const KNOTS_PER_UNIT: f64 = 2.0;
 pub(super) fn meets_total_reflection(arc: &Arc, ray: &Node) -> bool {
     let meridian = arc.meridian();
     let order = meridian.order as usize;
-    if order < 2 || meridian.tracer.shape().rotational_symmetry() {
+    if !(2..=LAST_ORDER).contains(&order) || meridian.tracer.shape().rotational_symmetry() {
         return false;
     }
     let mut meetings = Vec::new();
@@ -68,15 +69,15 @@ pub(super) struct Stretch {
 
 impl Stretch {
     /// Between the landmarks before and behind the fold. `None` where the polynomials would have to
-    /// be continued too far.
+    /// be continued too far, or through rays whose impacts do not serve.
     pub(super) fn about(arc: &Arc, fold: &Fold, limits: [f64; 2], x: f64) -> Option<Self> {
         let across = |ray: &Node| arc.meridian().spread_across(&ray.exit, ray.angle);
         let least = LEAST_SPREAD * across(&arc.ray_at(fold.alpha.sin())?);
         let serves = |ray: &&Node| across(ray) * least.signum() > least.abs();
         let (inside, beyond): (Vec<&Node>, Vec<&Node>) =
             arc.nodes().iter().partition(|ray| ray.alpha < fold.alpha);
-        let first = inside.iter().rev().take_while(|ray| serves(*ray)).last()?;
-        let last = beyond.iter().take_while(|ray| serves(*ray)).last()?;
+        let first = inside.iter().rev().take_while(|ray| serves(ray)).last()?;
+        let last = beyond.iter().take_while(|ray| serves(ray)).last()?;
         let off = |ray: &Node| (ray.angle - fold.angle).abs();
         let (mut from, mut to, mut reach) = (limits[0], limits[1], f64::MAX);
         if first.alpha > inside.first()?.alpha {
@@ -84,7 +85,7 @@ impl Stretch {
         }
         to -= SPARE * (to - fold.alpha.sin());
         if last.alpha.sin() < to {
-            (to, reach) = (last.alpha.sin(), reach.min(OUTER_SHARE * off(last)));
+            return None;
         }
         let continued = TUNNEL * x.powf(-2.0 / 3.0) + limits[1] - to;
         (continued < MOST_CONTINUED * (to - fold.alpha.sin())).then_some(Self { from, to, reach })

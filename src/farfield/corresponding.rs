@@ -123,7 +123,16 @@ fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, A
     };
     let cut: Vec<Option<Vec<Segment>>> = arcs.par_iter().zip(&ends).map(segments).collect();
     let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
-    let same_kind = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(template.iter().copied());
+    // a fold's integral on one meridian may be a pair on another, whose impacts do not serve
+    let alike = |(a, b): (&Segment, &Kind)| {
+        a.kind == *b
+            || matches!(
+                (a.kind, b),
+                (Kind::Wave, Kind::Pair { .. }) | (Kind::Pair { .. }, Kind::Wave)
+            )
+    };
+    let same_kind =
+        |m: &Vec<Segment>| m.len() == template.len() && m.iter().zip(&template).all(alike);
     let filled = fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())?;
     Some((filled, layout))
 }
@@ -163,8 +172,10 @@ fn avoid_total_reflection(
             continue;
         }
         let reach = |(arc, _): (&Arc, _)| arc.integral_reach(f, layout.size_parameter);
-        let reaches: Option<Vec<f64>> = found().map(reach).collect();
-        let Some(reaches) = reaches else { continue };
+        let reaches: Vec<f64> = found().filter_map(reach).collect();
+        if reaches.is_empty() {
+            continue;
+        }
         let reach = reaches.into_iter().fold(fold.lit, f64::min);
         if reach * fold.per_angle > SHORTEST_ZETA {
             fold.lit = reach;
@@ -189,6 +200,9 @@ fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segm
         let before = k.checked_sub(1)?;
         let share = 1.0 / (after - before) as f64;
         let (a, b) = (meridians[before].as_ref()?, meridians[after].as_ref()?);
+        if a.iter().zip(b).any(|(a, b)| a.kind != b.kind) {
+            return None;
+        }
         let between = |(a, b): (&Segment, &Segment)| {
             let knot =
                 |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));

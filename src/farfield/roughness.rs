@@ -15,10 +15,15 @@ const WEIGHTS: [f64; 3] = [0.75, -0.3, 0.05];
 const EVEN: std::ops::Range<usize> = PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 4;
 
 /// Largest difference between meridians at even steps over a half-turn and what their neighbours make
-/// of them: the phase of their paths at equal angles, or waves relative to their largest.
+/// of them: the phase of their paths at equal angles, or waves relative to their largest. Infinite
+/// where segments are of different kinds.
 pub(super) fn roughness(meridians: &[Vec<Segment>], size_parameter: f64) -> f64 {
     if meridians.len() <= WEIGHTS.len() {
         return 0.0;
+    }
+    let kinds = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(meridians[0].iter().map(|s| s.kind));
+    if !meridians.iter().all(kinds) {
+        return f64::INFINITY;
     }
     let segments = 0..meridians[0].len();
     segments.map(|s| of_segment(meridians, s, size_parameter)).fold(0.0, f64::max)
