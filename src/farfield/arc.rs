@@ -6,6 +6,7 @@
 //! every meridian, so that all their data vary smoothly with azimuth too.
 
 use super::axis_wave::AxisWave;
+use super::bow_wave::{self, Stretch};
 use super::fold::{Fold, PAIR_CHANNELS};
 use super::meridian::{GRAZING, Meridian, Node};
 use super::rim::{RimLayout, RimWave};
@@ -25,8 +26,7 @@ pub struct ArcLayout {
     pub scan: usize,
     /// Angle about later axis crossings that is left out, radians.
     pub axis_gap: f64,
-    /// Reach of each fold's pair segment on the dark and the lit side, radians.
-    pub folds: Vec<(f64, f64)>,
+    pub folds: Vec<FoldLayout>,
     /// Knots per radian of exit angle.
     pub density: f64,
     /// Pieces of each plain segment; empty while the layout is being found.
@@ -44,9 +44,32 @@ impl ArcLayout {
         Self {
             density: 2.0 * self.density,
             knots: self.knots.iter().map(|count| 2 * count).collect(),
+            folds: self.folds.iter().map(FoldLayout::finer).collect(),
             rim: self.rim.as_ref().map(RimLayout::finer),
             ..self.clone()
         }
+    }
+}
+
+/// The segment about a fold.
+#[derive(Clone, Debug)]
+pub struct FoldLayout {
+    /// Its reach on the dark and the lit side, radians.
+    pub dark: f64,
+    pub lit: f64,
+    /// Argument of the Airy function per radian, where it grows fastest.
+    pub per_angle: f64,
+    /// For an integral over impacts in place of a pair: places of its knots, radians from the fold.
+    pub integral: Option<Vec<f64>>,
+}
+
+impl FoldLayout {
+    fn finer(&self) -> Self {
+        let between = |knots: &Vec<f64>| {
+            let halves = knots.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
+            halves.chain(knots.last().copied()).collect()
+        };
+        Self { integral: self.integral.as_ref().map(between), ..*self }
     }
 }
 
@@ -146,6 +169,11 @@ impl<'a> Arc<'a> {
         &self.meridian
     }
 
+    /// The rays of the scan.
+    pub(super) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
     /// The last ray that leaves.
     pub fn last_ray(&self) -> &Node {
         &self.last
@@ -220,7 +248,7 @@ impl<'a> Arc<'a> {
         for pair in self.landmarks.windows(2) {
             let before_fold = fold_number;
             fold_number += usize::from(matches!(pair[0], Landmark::Fold(_)));
-            let edge = |number: usize| layout.folds.get(number).map(|f| f.1);
+            let edge = |number: usize| layout.folds.get(number).map(|f| f.lit);
             let from = self.edge(&pair[0], edge(before_fold), layout)?;
             let to = self.edge(&pair[1], edge(fold_number), layout)?;
             ends.push([self.find(from, true)?, self.find(to, false)?]);
@@ -231,13 +259,23 @@ impl<'a> Arc<'a> {
     /// Cut into segments between the ends found before. `None` where a ray cannot be found.
     pub fn segments(&self, layout: &ArcLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
         let mut segments = Vec::new();
-        let mut reaches = layout.folds.iter();
-        for ((pair, ends), count) in self.landmarks.windows(2).zip(ends).zip(&layout.knots) {
+        let mut folds = layout.folds.iter();
+        for (k, (pair, count)) in self.landmarks.windows(2).zip(&layout.knots).enumerate() {
             if let Landmark::Fold(fold) = &pair[0] {
-                let (dark, reach) = *reaches.next()?;
-                segments.push(self.pair_segment(fold, dark, reach, layout)?);
+                let about = folds.next()?;
+                let x = layout.size_parameter;
+                let stretch = || self.stretch(fold, k, x);
+                let integral =
+                    about.integral.as_ref().and_then(|places| Some((places, stretch()?)));
+                segments.push(match integral {
+                    Some((places, stretch)) => {
+                        let rays = [&ends[k - 1][1], &ends[k][0]];
+                        bow_wave::segment(self, fold, &stretch, rays, places, x)?
+                    }
+                    None => self.pair_segment(fold, about.dark, about.lit, layout)?,
+                });
             }
-            segments.push(self.plain_segment([&pair[0], &pair[1]], ends, *count, layout)?);
+            segments.push(self.plain_segment([&pair[0], &pair[1]], &ends[k], *count, layout)?);
         }
         if let Some(rim) = &layout.rim {
             segments.extend(RimWave::new(self, rim, layout.size_parameter)?.segments()?);
@@ -248,12 +286,7 @@ impl<'a> Arc<'a> {
     /// The waves about the axis of rays that cross it, in a rotationally symmetric scene.
     pub(super) fn axis_waves(&self, layout: &ArcLayout) -> Vec<AxisWave> {
         let (reach, x) = (layout.axis_gap, layout.size_parameter);
-        let launch = |landmark: &Landmark| match landmark {
-            Landmark::Axial => Some(0.0),
-            Landmark::Fold(fold) => Some(fold.alpha.sin()),
-            Landmark::End(node) => Some(node.alpha.sin()),
-            Landmark::Axis(axis) => self.crossing(*axis),
-        };
+        let launch = |landmark: &Landmark| self.launch(landmark);
         let crossing = |around: &[Landmark]| {
             let Landmark::Axis(axis) = around[1] else { return None };
             let side = |is_start| self.find(Edge::Axis { axis, gap: reach }, is_start);
@@ -267,6 +300,16 @@ impl<'a> Arc<'a> {
         let rim = layout.rim.as_ref().and_then(|rim| RimWave::new(self, rim, x));
         waves.extend(rim.iter().flat_map(|rim| rim.about_axes(reach)));
         waves
+    }
+
+    /// Launch point `sin α` of a landmark.
+    fn launch(&self, landmark: &Landmark) -> Option<f64> {
+        match landmark {
+            Landmark::Axial => Some(0.0),
+            Landmark::Fold(fold) => Some(fold.alpha.sin()),
+            Landmark::End(node) => Some(node.alpha.sin()),
+            Landmark::Axis(axis) => self.crossing(*axis),
+        }
     }
 
     /// Where the first scan crosses an axis.
@@ -286,6 +329,41 @@ impl<'a> Arc<'a> {
             }
             Landmark::Axis(axis) => Edge::Axis { axis: *axis, gap: layout.axis_gap },
         })
+    }
+
+    /// For each fold: angle from it to the nearest ray of its segment that comes near total reflection
+    /// inside; infinite where none does.
+    pub(super) fn critical_angles(&self, ends: &[[Node; 2]]) -> Vec<f64> {
+        let nearest = |(k, fold): (usize, &Fold)| {
+            let [first, last] = [ends[k - 1][1], ends[k][0]];
+            let between = |ray: &&Node| first.alpha < ray.alpha && ray.alpha < last.alpha;
+            let scanned = self.nodes.iter().filter(between).copied();
+            let rays = scanned.chain([first, last]).chain(self.interpolated(fold.alpha));
+            rays.filter(|ray| bow_wave::meets_total_reflection(self, ray))
+                .map(|ray| (ray.angle - fold.angle).abs())
+                .fold(f64::INFINITY, f64::min)
+        };
+        self.numbered_folds().map(nearest).collect()
+    }
+
+    /// How far an integral over impacts reaches on the lit side of fold `number`. `None` where it
+    /// does not serve.
+    pub(super) fn integral_reach(&self, number: usize, size_parameter: f64) -> Option<f64> {
+        let (k, fold) = self.numbered_folds().nth(number)?;
+        Some(self.stretch(fold, k, size_parameter)?.reach)
+    }
+
+    /// The folds and their numbers among the landmarks.
+    fn numbered_folds(&self) -> impl Iterator<Item = (usize, &Fold)> {
+        self.landmarks.iter().enumerate().filter_map(|(k, landmark)| match landmark {
+            Landmark::Fold(fold) => Some((k, fold)),
+            _ => None,
+        })
+    }
+
+    fn stretch(&self, fold: &Fold, k: usize, size_parameter: f64) -> Option<Stretch> {
+        let limits = [self.launch(&self.landmarks[k - 1])?, self.launch(&self.landmarks[k + 1])?];
+        Stretch::about(self, fold, limits, size_parameter)
     }
 
     fn pair_segment(

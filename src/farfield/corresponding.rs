@@ -1,8 +1,9 @@
 //! Tracing the meridians of an order at several azimuths, and cutting them into segments that
 //! correspond: the same landmarks, the same knots.
 
-use super::arc::{Arc, ArcLayout};
+use super::arc::{Arc, ArcLayout, FoldLayout};
 use super::axis_wave::AxisWave;
+use super::bow_wave;
 use super::meridian::{Meridian, Node, axial_ray};
 use super::segment::{Kind, Knot, Segment};
 use crate::trace::Tracer;
@@ -15,6 +16,11 @@ const DARK_ZETA: f64 = 7.5;
 /// Longest reach of a pair segment, radians: beyond, its Chebyshev series would need more points.
 const LONGEST_REACH: f64 = 0.3;
 const LONGEST_DARK: f64 = 0.45;
+
+/// Share of the angle from a fold to the nearest ray near total reflection that its pair may use, and
+/// the argument of its Airy functions that it must reach.
+const CLEARANCE: f64 = 0.9;
+const SHORTEST_ZETA: f64 = 6.0;
 
 /// What is traced of an order.
 pub(super) struct Traced {
@@ -62,9 +68,9 @@ pub(super) fn trace(
                 if symmetric { found.first()?.axis_waves(&layout) } else { Vec::new() };
             return Some(Traced { meridians, layout, about_axis });
         }
-        layout.folds.iter_mut().for_each(|(dark, reach)| {
-            *dark *= 0.6;
-            *reach *= 0.95;
+        layout.folds.iter_mut().for_each(|fold| {
+            fold.dark *= 0.6;
+            fold.lit *= 0.95;
         });
     }
     None
@@ -80,17 +86,18 @@ fn most_missing(count: usize) -> usize {
 const SHRINKS: usize = 6;
 
 /// Reach on the dark and lit side of each fold, common to all meridians.
-fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, f64)> {
+fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<FoldLayout> {
     let measured: Vec<Vec<(f64, f64)>> = arcs.iter().map(|arc| arc.folds(axis_gap)).collect();
     let count = measured.first().map_or(0, Vec::len);
     let unit = size_parameter.powf(-2.0 / 3.0);
     (0..count)
         .map(|f| {
             let weakest = measured.iter().map(|m| m[f].0).fold(f64::MAX, f64::min);
+            let strongest = measured.iter().map(|m| m[f].0).fold(0.0, f64::max);
             let room = measured.iter().map(|m| m[f].1).fold(f64::MAX, f64::min);
             let dark = (DARK_ZETA * unit / weakest).min(LONGEST_DARK);
-            let reach = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
-            (dark, reach)
+            let lit = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
+            FoldLayout { dark, lit, per_angle: strongest / unit, integral: None }
         })
         .collect()
 }
@@ -98,19 +105,34 @@ fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<(f64, 
 /// All segments of all meridians, with common numbers of knots.
 fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, ArcLayout)> {
     type Ends = Vec<[Node; 2]>;
-    let ends: Vec<Option<Ends>> =
-        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect();
+    let find_ends = |layout: &ArcLayout| -> Vec<Option<Ends>> {
+        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect()
+    };
+    let mut layout = layout.clone();
+    let mut ends = find_ends(&layout);
+    if avoid_total_reflection(arcs, &ends, &mut layout) {
+        ends = find_ends(&layout);
+    }
     let plain_count = ends.iter().flatten().next()?.len();
     let pieces = |s: usize| {
         ends.iter().flatten().map(|e| Arc::pieces(&e[s], layout.density)).max().unwrap_or(0)
     };
-    let layout = ArcLayout { knots: (0..plain_count).map(pieces).collect(), ..layout.clone() };
+    layout.knots = (0..plain_count).map(pieces).collect();
     let segments = |(arc, ends): (&Option<Arc>, &Option<Ends>)| -> Option<Vec<Segment>> {
         arc.as_ref()?.segments(&layout, ends.as_ref()?)
     };
     let cut: Vec<Option<Vec<Segment>>> = arcs.par_iter().zip(&ends).map(segments).collect();
     let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
-    let same_kind = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(template.iter().copied());
+    // a fold's integral on one meridian may be a pair on another, whose impacts do not serve
+    let alike = |(a, b): (&Segment, &Kind)| {
+        a.kind == *b
+            || matches!(
+                (a.kind, b),
+                (Kind::Wave, Kind::Pair { .. }) | (Kind::Pair { .. }, Kind::Wave)
+            )
+    };
+    let same_kind =
+        |m: &Vec<Segment>| m.len() == template.len() && m.iter().zip(&template).all(alike);
     let filled = fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())?;
     Some((filled, layout))
 }
@@ -128,6 +150,41 @@ pub(super) fn another(
     arc.segments(layout, &arc.ends(layout)?)
 }
 
+/// Keep folds' segments from rays near total reflection, on all meridians: those that would be left too
+/// short for single rays beyond become integrals, as far as all meridians' impacts serve. Whether
+/// any changed.
+fn avoid_total_reflection(
+    arcs: &[Option<Arc>],
+    ends: &[Option<Vec<[Node; 2]>>],
+    layout: &mut ArcLayout,
+) -> bool {
+    let found = || arcs.iter().zip(ends).filter_map(|(arc, ends)| arc.as_ref().zip(ends.as_ref()));
+    let critical: Vec<Vec<f64>> = found().map(|(arc, ends)| arc.critical_angles(ends)).collect();
+    let mut changed = false;
+    for (f, fold) in layout.folds.iter_mut().enumerate() {
+        let nearest = CLEARANCE * critical.iter().map(|arc| arc[f]).fold(f64::INFINITY, f64::min);
+        if nearest > fold.lit {
+            continue;
+        }
+        changed = true;
+        if nearest * fold.per_angle > SHORTEST_ZETA {
+            fold.lit = nearest;
+            continue;
+        }
+        let reach = |(arc, _): (&Arc, _)| arc.integral_reach(f, layout.size_parameter);
+        let reaches: Vec<f64> = found().filter_map(reach).collect();
+        if reaches.is_empty() {
+            continue;
+        }
+        let reach = reaches.into_iter().fold(fold.lit, f64::min);
+        if reach * fold.per_angle > SHORTEST_ZETA {
+            fold.lit = reach;
+            fold.integral = Some(bow_wave::knots([fold.dark, fold.lit], fold.per_angle));
+        }
+    }
+    changed
+}
+
 /// Fill meridians that were not found from the nearest on both sides. `None` when too many or an
 /// outer one is missing.
 fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
@@ -143,6 +200,9 @@ fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segm
         let before = k.checked_sub(1)?;
         let share = 1.0 / (after - before) as f64;
         let (a, b) = (meridians[before].as_ref()?, meridians[after].as_ref()?);
+        if a.iter().zip(b).any(|(a, b)| a.kind != b.kind) {
+            return None;
+        }
         let between = |(a, b): (&Segment, &Segment)| {
             let knot =
                 |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));

@@ -13,6 +13,7 @@ use super::edge::EdgeWave;
 use super::forward_diffraction::ForwardDiffraction;
 use super::meridian::axial_ray;
 use super::rim::{self, RimLayout};
+use super::roughness::roughness;
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::sweep::{Samples, Side, Sums, add_segment};
 use crate::math::fused::multiply_add;
@@ -78,6 +79,12 @@ const HALF_TURN_STEPS_RIM: usize = 60;
 /// Where interpolation over azimuth is checked: off the even steps by nearly half of one, for both
 /// numbers of steps.
 const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
+/// How far meridians may differ from what their neighbours make of them (see [`roughness`]) to be
+/// interpolated over azimuth; else those asked for are traced one by one. Interpolation between them
+/// has steps half as long and more neighbours, and errs by a small part of that.
+const ROUGHEST: f64 = 0.2;
+/// The last order that is worth it: higher ones are weak, and their waves have many knots.
+const LAST_CHECKED: u32 = 3;
 /// Neighbours in the interpolation over azimuth.
 const STENCIL: usize = 8;
 /// Order times deformation from which meridians no longer correspond across the axis.
@@ -211,8 +218,24 @@ impl OrderFan {
         settings: &FanSettings,
         edge: Option<&EdgeWave>,
     ) -> Option<Self> {
-        let centre = axial_ray(tracer, order);
         let azimuths = azimuths(tracer, settings);
+        let checked = order <= LAST_CHECKED && matches!(azimuths, Azimuths::Even);
+        let found = Self::at(tracer, order, settings, edge, azimuths)?;
+        if checked && roughness(&found.meridians, settings.size_parameter) > ROUGHEST {
+            return Self::at(tracer, order, settings, edge, Azimuths::Listed(listed(settings)));
+        }
+        Some(found)
+    }
+
+    /// With meridians at these azimuths.
+    fn at(
+        tracer: &Tracer,
+        order: u32,
+        settings: &FanSettings,
+        edge: Option<&EdgeWave>,
+        azimuths: Azimuths,
+    ) -> Option<Self> {
+        let centre = axial_ray(tracer, order);
         let steps = if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
         let places = azimuths.places(settings, steps);
         // knots per radian at 1 %: the strongest orders have more
@@ -382,14 +405,20 @@ fn mirror(segment: &mut Segment) {
     }
 }
 
+/// The azimuths of all meridians that the asked ones need: each column its own and that of the
+/// opposite side.
+fn listed(settings: &FanSettings) -> Vec<f64> {
+    let mut list: Vec<f64> = settings.azimuths.iter().flat_map(|&a| [a, PI - a]).collect();
+    list.sort_by(f64::total_cmp);
+    list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    list
+}
+
 fn azimuths(tracer: &Tracer, settings: &FanSettings) -> Azimuths {
     if tracer.shape().rotational_symmetry() {
         return Azimuths::Any;
     }
-    // each column needs its own meridian and that of the opposite side
-    let mut list: Vec<f64> = settings.azimuths.iter().flat_map(|&a| [a, PI - a]).collect();
-    list.sort_by(f64::total_cmp);
-    list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let list = listed(settings);
     if list.len() <= HALF_TURN_STEPS { Azimuths::Listed(list) } else { Azimuths::Even }
 }
 

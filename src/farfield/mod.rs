@@ -10,6 +10,7 @@
 
 pub mod arc;
 mod axis_wave;
+mod bow_wave;
 pub mod collecting_sphere;
 mod corresponding;
 pub mod direction;
@@ -31,6 +32,7 @@ pub mod patch;
 pub mod rim;
 mod rim_integrand;
 mod rim_rays;
+mod roughness;
 pub mod segment;
 pub mod sweep;
 pub mod tabulate;

@@ -378,7 +378,7 @@ impl<'l> RimWave<'l> {
             let slope = -(anchor.impact + sense * shift);
             let factor = self.before.towards(angle) / angle.sin().abs().sqrt();
             let sums = self.integrand.sum(angle, path, x);
-            knots.push(knot(angle, path, slope, factor, &sums, x));
+            knots.push(wave_knot([angle, path, slope], factor, &sums, x));
         }
         let finite = knots.iter().flatten().all(|v| v.is_finite());
         finite.then_some(Segment { kind: Kind::Wave, knots })
@@ -398,7 +398,9 @@ impl<'l> RimWave<'l> {
     }
 }
 
-fn knot(angle: f64, path: f64, slope: f64, factor: Complex64, sums: &Sums, x: f64) -> Knot {
+/// A knot of a wave from its sums: `place` is angle, reference path and the slope of that.
+pub(super) fn wave_knot(place: [f64; 3], factor: Complex64, sums: &Sums, x: f64) -> Knot {
+    let [angle, path, slope] = place;
     let mut knot = [0.0; CHANNELS];
     (knot[0], knot[1], knot[2]) = (angle, path, slope);
     let shrink = -0.5 * angle.cos() / angle.sin();

@@ -18,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 /// Real rays through which the polynomials pass.
 pub(super) const RAYS: usize = 20;
 /// Wave zones `x^{-2/3}` beyond the last ray at which tunnelling has ended.
-const TUNNEL: f64 = 4.0;
+pub(super) const TUNNEL: f64 = 4.0;
 /// Samples of the integrand per period of its phase.
 const SAMPLES_PER_PERIOD: f64 = 1.8;
 
