@@ -27,6 +27,9 @@ pub struct ArcLayout {
     /// Angle about later axis crossings that is left out, radians.
     pub axis_gap: f64,
     pub folds: Vec<FoldLayout>,
+    /// Launch coordinate at which the last plain segment is cut in two, where last rays differ: the
+    /// inner part does not depend on them.
+    pub cut: Option<f64>,
     /// Knots per radian of exit angle.
     pub density: f64,
     /// Pieces of each plain segment; empty while the layout is being found.
@@ -80,6 +83,8 @@ enum Landmark {
     Fold(Fold),
     /// Crossing of the axis between two nodes; unwrapped angle of the axis.
     Axis(f64),
+    /// Just a launch coordinate, the same on all meridians.
+    Cut(f64),
     /// Last ray that leaves: the rim, or the edge of total reflection.
     End(Box<Node>),
 }
@@ -219,6 +224,7 @@ impl<'a> Arc<'a> {
             Landmark::Fold(fold) if fold.lit > 0.0 => 'F',
             Landmark::Fold(_) => 'f',
             Landmark::Axis(_) => 'X',
+            Landmark::Cut(_) => '|',
             Landmark::End(_) => 'E',
         };
         self.landmarks.iter().map(letter).collect()
@@ -234,6 +240,7 @@ impl<'a> Arc<'a> {
                 Landmark::Axis(axis) => (fold.angle - axis).abs() - axis_gap,
                 Landmark::Fold(next) => 0.5 * (fold.angle - next.angle).abs(),
                 Landmark::End(node) => (fold.angle - node.angle).abs(),
+                Landmark::Cut(_) => f64::INFINITY,
             };
             let available = room(&self.landmarks[k - 1]).min(room(&self.landmarks[k + 1]));
             found.push((fold.strength(&self.meridian).unwrap_or(1.0), available));
@@ -245,23 +252,34 @@ impl<'a> Arc<'a> {
     pub fn ends(&self, layout: &ArcLayout) -> Option<Vec<[Node; 2]>> {
         let mut ends = Vec::new();
         let mut fold_number = 0;
-        for pair in self.landmarks.windows(2) {
+        let cut = layout.cut.map(Landmark::Cut);
+        for pair in self.marks(&cut).windows(2) {
             let before_fold = fold_number;
             fold_number += usize::from(matches!(pair[0], Landmark::Fold(_)));
             let edge = |number: usize| layout.folds.get(number).map(|f| f.lit);
-            let from = self.edge(&pair[0], edge(before_fold), layout)?;
-            let to = self.edge(&pair[1], edge(fold_number), layout)?;
+            let from = self.edge(pair[0], edge(before_fold), layout)?;
+            let to = self.edge(pair[1], edge(fold_number), layout)?;
             ends.push([self.find(from, true)?, self.find(to, false)?]);
         }
         Some(ends)
+    }
+
+    /// The landmarks, with one more before the last.
+    fn marks<'l>(&'l self, cut: &'l Option<Landmark>) -> Vec<&'l Landmark> {
+        let mut marks: Vec<&Landmark> = self.landmarks.iter().collect();
+        if let Some(cut) = cut {
+            marks.insert(marks.len() - 1, cut);
+        }
+        marks
     }
 
     /// Cut into segments between the ends found before. `None` where a ray cannot be found.
     pub fn segments(&self, layout: &ArcLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
         let mut segments = Vec::new();
         let mut folds = layout.folds.iter();
-        for (k, (pair, count)) in self.landmarks.windows(2).zip(&layout.knots).enumerate() {
-            if let Landmark::Fold(fold) = &pair[0] {
+        let cut = layout.cut.map(Landmark::Cut);
+        for (k, (pair, count)) in self.marks(&cut).windows(2).zip(&layout.knots).enumerate() {
+            if let Landmark::Fold(fold) = pair[0] {
                 let about = folds.next()?;
                 let x = layout.size_parameter;
                 let stretch = || self.stretch(fold, k, x);
@@ -275,7 +293,7 @@ impl<'a> Arc<'a> {
                     None => self.pair_segment(fold, about.dark, about.lit, layout)?,
                 });
             }
-            segments.push(self.plain_segment([&pair[0], &pair[1]], &ends[k], *count, layout)?);
+            segments.push(self.plain_segment([pair[0], pair[1]], &ends[k], *count, layout)?);
         }
         if let Some(rim) = &layout.rim {
             segments.extend(RimWave::new(self, rim, layout.size_parameter)?.segments()?);
@@ -309,6 +327,7 @@ impl<'a> Arc<'a> {
             Landmark::Fold(fold) => Some(fold.alpha.sin()),
             Landmark::End(node) => Some(node.alpha.sin()),
             Landmark::Axis(axis) => self.crossing(*axis),
+            Landmark::Cut(alpha) => Some(alpha.sin()),
         }
     }
 
@@ -323,6 +342,7 @@ impl<'a> Arc<'a> {
     fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &ArcLayout) -> Option<Edge> {
         Some(match landmark {
             Landmark::Axial => Edge::Alpha(0.0),
+            Landmark::Cut(alpha) => Edge::Alpha(*alpha),
             Landmark::End(node) => Edge::Last(node.clone()),
             Landmark::Fold(fold) => {
                 Edge::Angle { angle: fold.angle + fold.lit * reach?, near: fold.alpha }

@@ -110,6 +110,10 @@ fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, A
     };
     let mut layout = layout.clone();
     let mut ends = find_ends(&layout);
+    layout.cut = before_the_ends(ends.iter().flatten().filter_map(|ends| ends.last()));
+    if layout.cut.is_some() {
+        ends = find_ends(&layout);
+    }
     if avoid_total_reflection(arcs, &ends, &mut layout) {
         ends = find_ends(&layout);
     }
@@ -148,6 +152,19 @@ pub(super) fn another(
     let centre = axial_ray(tracer, order);
     let arc = Arc::new(Meridian::new(tracer, order, azimuth, centre), &silhouette, layout)?;
     arc.segments(layout, &arc.ends(layout)?)
+}
+
+/// Where to cut last segments whose last rays differ from meridian to meridian, as they do where some
+/// are totally reflected: their knots would jump along.
+fn before_the_ends<'e>(last: impl Iterator<Item = &'e [Node; 2]> + Clone) -> Option<f64> {
+    const ALIKE: f64 = 1e-3;
+    const SHORTEST: f64 = 0.05;
+    const SPARE: f64 = 0.04;
+    let begin = last.clone().map(|[a, _]| a.alpha).fold(0.0, f64::max);
+    let ends = || last.clone().map(|[_, b]| b.alpha);
+    let (low, high) = (ends().fold(f64::MAX, f64::min), ends().fold(0.0, f64::max));
+    let serves = high - low > ALIKE && low - begin > SHORTEST;
+    serves.then(|| low - SPARE * (low - begin))
 }
 
 /// Keep folds' segments from rays near total reflection, on all meridians: those that would be left too

@@ -80,9 +80,12 @@ const HALF_TURN_STEPS_RIM: usize = 60;
 /// numbers of steps.
 const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
 /// How far meridians may differ from what their neighbours make of them (see [`roughness`]) to be
-/// interpolated over azimuth; else those asked for are traced one by one. Interpolation between them
-/// has steps half as long and more neighbours, and errs by a small part of that.
+/// interpolated over azimuth; else there are some times more, or those asked for are traced one by
+/// one unless they are too many. Interpolation between them has steps half as long and more
+/// neighbours, and errs by a small part of that.
 const ROUGHEST: f64 = 0.2;
+const FINER: usize = 4;
+const MOST_LISTED: usize = 2000;
 /// The last order that is worth it: higher ones are weak, and their waves have many knots.
 const LAST_CHECKED: u32 = 3;
 /// Neighbours in the interpolation over azimuth.
@@ -220,23 +223,36 @@ impl OrderFan {
     ) -> Option<Self> {
         let azimuths = azimuths(tracer, settings);
         let checked = order <= LAST_CHECKED && matches!(azimuths, Azimuths::Even);
-        let found = Self::at(tracer, order, settings, edge, azimuths)?;
-        if checked && roughness(&found.meridians, settings.size_parameter) > ROUGHEST {
-            return Self::at(tracer, order, settings, edge, Azimuths::Listed(listed(settings)));
+        let mut found = Self::at(tracer, order, settings, edge, azimuths, 1)?;
+        let rough = |found: &Self| roughness(&found.meridians, settings.size_parameter) > ROUGHEST;
+        if !checked || !rough(&found) {
+            return Some(found);
         }
-        Some(found)
+        let listed = listed(settings);
+        if listed.len() > FINER * found.meridians.len() {
+            let finer = Self::at(tracer, order, settings, edge, Azimuths::Even, FINER);
+            found = finer.unwrap_or(found);
+            if !rough(&found) {
+                return Some(found);
+            }
+        }
+        if listed.len() > MOST_LISTED {
+            return Some(found);
+        }
+        Self::at(tracer, order, settings, edge, Azimuths::Listed(listed), 1).or(Some(found))
     }
 
-    /// With meridians at these azimuths.
+    /// With meridians at these azimuths, `finer` times as many as usual where they are even.
     fn at(
         tracer: &Tracer,
         order: u32,
         settings: &FanSettings,
         edge: Option<&EdgeWave>,
         azimuths: Azimuths,
+        finer: usize,
     ) -> Option<Self> {
         let centre = axial_ray(tracer, order);
-        let steps = if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
+        let steps = finer * if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
         let places = azimuths.places(settings, steps);
         // knots per radian at 1 %: the strongest orders have more
         let density = if order == 0 && edge.is_some() {
@@ -260,6 +276,7 @@ impl OrderFan {
                 scan: 64 + 16 * order as usize,
                 axis_gap,
                 folds: Vec::new(),
+                cut: None,
                 density,
                 knots: Vec::new(),
                 size_parameter: x,

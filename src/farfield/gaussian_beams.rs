@@ -46,7 +46,9 @@ struct Beam {
     bent: [Vec3<f64>; 3],
     /// Fields for incident light along x and y, all factors in them.
     field: [Field; 2],
-    /// Largest angle from the exit ray at which it counts.
+    /// Real part of the exponent about its own direction, by `(∂r/∂y)·off`, and the largest angle
+    /// from the exit ray at which it counts.
+    decay: [f64; 3],
     reach: f64,
 }
 
@@ -257,6 +259,7 @@ impl Beam {
             bend,
             bent,
             field: exit.field.map(scaled),
+            decay: Form::new(bend).inverse.map(|v| 0.5 * x * v.re),
             reach: 0.0,
         };
         beam.reach = beam.reach(x);
@@ -265,9 +268,8 @@ impl Beam {
 
     /// Angle from the exit ray at which the exponent has fallen enough.
     fn reach(&self, x: f64) -> f64 {
-        let form = Form::new(self.bend);
         let [e, f] = frame(self.direction);
-        let at = |d: Vec3<f64>| 0.5 * x * form.over(self.moved.map(|m| m.dot(d))).re;
+        let at = |d: Vec3<f64>| self.fallen(self.moved.map(|m| m.dot(d)));
         let (p, q) = (at(e), at(f));
         let r = 0.5 * (at(e + f) - p - q);
         let slowest = 0.5 * (p + q) - (0.5 * (p - q)).hypot(r);
@@ -279,15 +281,24 @@ impl Beam {
         self.field.iter().map(square).sum::<f64>().sqrt()
     }
 
+    /// Real part of the exponent, as its own direction has it.
+    fn fallen(&self, [p, q]: [f64; 2]) -> f64 {
+        self.decay[0] * p * p + self.decay[1] * q * q + 2.0 * self.decay[2] * p * q
+    }
+
     /// Its wave in a direction, if it reaches there.
     fn towards(&self, direction: &Direction, x: f64) -> Option<AmplitudeMatrix> {
         let off = direction.unit - self.direction;
         if off.dot(off) > self.reach * self.reach {
             return None;
         }
+        let along = self.moved.map(|m| m.dot(off));
+        if self.fallen(along) > FARTHEST_EXPONENT {
+            return None;
+        }
         let bend = [0, 1, 2].map(|k| self.bend[k] - self.bent[k].dot(off));
         let form = Form::new(bend);
-        let exponent = form.over(self.moved.map(|m| m.dot(off))) * (0.5 * x);
+        let exponent = form.over(along) * (0.5 * x);
         let phase = x * (self.path - self.reference.dot(off)) - exponent.im;
         let (sin, cos) = sin_cos_turns(phase / TAU);
         let size = (-exponent.re).exp();
@@ -345,8 +356,13 @@ impl Form {
         let (a, b, c) = (entry(m11), entry(m22), Complex64::new(0.0, -m12));
         let determinant = a * b - c * c;
         // both eigenvalues have the same positive real part: a root for each
-        let (mean, half) = (0.5 * (m11 + m22), 0.5 * (m11 - m22).hypot(2.0 * m12));
-        let root = entry(mean + half).sqrt() * entry(mean - half).sqrt();
+        let half = (0.25 * (m11 - m22) * (m11 - m22) + m12 * m12).sqrt();
+        let mean = 0.5 * (m11 + m22);
+        let root_of = |m: f64| {
+            let re = (0.5 * (TIGHT + (TIGHT * TIGHT + m * m).sqrt())).sqrt();
+            Complex64::new(re, -0.5 * m / re)
+        };
+        let root = root_of(mean + half) * root_of(mean - half);
         Self { inverse: [b, a, -c].map(|v| v / determinant), root }
     }
 

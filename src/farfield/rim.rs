@@ -112,7 +112,8 @@ pub fn taper(
         start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
         full = full.max(start + FEWEST_ZONES * zone(full));
     }
-    let serves = full < b - FEWEST_WIDTHS * airy && full - start > 0.99 * FEWEST_ZONES * zone(full);
+    let room = full - start > 0.99 * FEWEST_ZONES * zone(full) || !rotational;
+    let serves = room && full < b - FEWEST_WIDTHS * airy;
     serves.then_some([start, full, b])
 }
 
