@@ -164,7 +164,7 @@ fn before_the_ends<'e>(last: impl Iterator<Item = &'e [Node; 2]> + Clone) -> Opt
     let ends = || last.clone().map(|[_, b]| b.alpha);
     let (low, high) = (ends().fold(f64::MAX, f64::min), ends().fold(0.0, f64::max));
     let serves = high - low > ALIKE && low - begin > SHORTEST;
-    serves.then(|| low - SPARE * (low - begin))
+    serves.then_some(low - SPARE * (low - begin))
 }
 
 /// Keep folds' segments from rays near total reflection, on all meridians: those that would be left too

@@ -139,14 +139,57 @@ impl Fan {
         self.edge.as_ref()
     }
 
+    /// Orders that are represented, whose rays stray by more than `least` (see [`tangle`]).
+    pub(super) fn regular_orders(&self, least: f64, tracer: &Tracer) -> Vec<u32> {
+        let orders = self.orders.iter().map(|fan| fan.order);
+        orders.filter(|&order| tangle(tracer, order) > least).collect()
+    }
+
+    /// Some azimuths at which an order can be asked for.
+    pub(super) fn some_azimuths(&self, order: u32, count: usize) -> Vec<f64> {
+        let place = |k: usize| (k as f64 + 0.31) / count as f64;
+        match self.orders.iter().find(|fan| fan.order == order).map(|fan| &fan.azimuths) {
+            Some(Azimuths::Even) => (0..count).map(|k| PI * place(k)).collect(),
+            Some(Azimuths::Listed(list)) => {
+                let mut some: Vec<f64> =
+                    (0..count).map(|k| list[(place(k) * list.len() as f64) as usize]).collect();
+                some.dedup();
+                some
+            }
+            Some(Azimuths::Any) => vec![0.0],
+            None => Vec::new(),
+        }
+    }
+
+    /// Leave an order to others.
+    pub(super) fn give_up(&mut self, order: u32) {
+        self.orders.retain(|fan| fan.order != order);
+        self.irregular.push(order);
+        self.irregular.sort_unstable();
+    }
+
+    /// One order's amplitudes at samples θ (ascending) of an azimuth in [0, π].
+    pub(super) fn columns_of(&self, order: u32, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
+        let orders = self.orders.iter().filter(|fan| fan.order == order);
+        self.columns_of_orders(orders, theta, &[phi]).swap_remove(0)
+    }
+
     /// Amplitudes at samples θ (ascending) of some azimuths in [0, π], without forward diffraction.
-    ///
-    /// Segment by segment for all azimuths, so that what they are interpolated from stays in cache.
     pub fn columns(&self, theta: &[f64], azimuths: &[f64]) -> Vec<Vec<AmplitudeMatrix>> {
+        self.columns_of_orders(self.orders.iter(), theta, azimuths)
+    }
+
+    /// Segment by segment for all azimuths, so that what they are interpolated from stays in cache.
+    fn columns_of_orders<'f>(
+        &self,
+        orders: impl Iterator<Item = &'f OrderFan> + Clone,
+        theta: &[f64],
+        azimuths: &[f64],
+    ) -> Vec<Vec<AmplitudeMatrix>> {
         let x = self.size_parameter;
         let samples = Samples::new(theta);
         let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(&samples)).collect();
-        for fan in &self.orders {
+        for fan in orders.clone() {
             for number in 0..fan.meridians[0].len() {
                 let near = fan.meets(number, theta, Side::Near);
                 for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| near) {
@@ -164,7 +207,7 @@ impl Fan {
         }
         let mut columns: Vec<Vec<AmplitudeMatrix>> =
             sums.into_iter().map(|sums| sums.amplitudes()).collect();
-        for wave in self.orders.iter().flat_map(|fan| &fan.about_axis) {
+        for wave in orders.flat_map(|fan| &fan.about_axis) {
             columns.iter_mut().for_each(|column| wave.add(theta, column));
         }
         columns

@@ -13,6 +13,7 @@ mod axis_wave;
 mod bow_wave;
 pub mod collecting_sphere;
 mod corresponding;
+mod cross_check;
 pub mod direction;
 pub mod edge;
 mod edge_layout;
@@ -85,7 +86,10 @@ impl<'a> FarField<'a> {
     /// Meridians with uniform Airy functions at their folds.
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
-        let fan = Fan::new(tracer, settings, &silhouette);
+        let mut fan = Fan::new(tracer, settings, &silhouette);
+        for order in cross_check::doubtful_orders(&fan, tracer, settings.size_parameter) {
+            fan.give_up(order);
+        }
         let tangled = (!fan.irregular.is_empty())
             .then(|| GaussianBeams::new(tracer, &fan.irregular, settings.size_parameter));
         Self {

@@ -1,0 +1,55 @@
+//! Meridians against Gaussian beams, two independent ways to the same wave.
+//!
+//! On strongly flattened particles rays may gather where no meridian tells (a fold across its plane, a
+//! branch that its scan does not reach). Beams see every ray, but are a few percent coarser. So for
+//! such particles both are computed at some directions, and an order that differs grossly is left to
+//! the beams.
+
+use super::fan::Fan;
+use super::gaussian_beams::GaussianBeams;
+use crate::optics::AmplitudeMatrix;
+use crate::trace::Tracer;
+use std::f64::consts::PI;
+
+/// Orders worth a check: higher ones are weak. Order 0 has its own wave at the edge.
+const ORDERS: std::ops::RangeInclusive<u32> = 1..=3;
+/// Order times deformation from which on it is made.
+const TANGLED: f64 = 0.06;
+/// Azimuths, scattering angles in each and in each band.
+const AZIMUTHS: usize = 9;
+const SAMPLES: usize = 640;
+const BAND: usize = 16;
+/// Share of the amplitude in a band that may differ, and the least share of the order's mean power that
+/// a band must hold to count.
+const GROSS: f64 = 0.6;
+const FAINT: f64 = 0.05;
+
+/// Regular orders whose waves differ from those of beams by more than beams may err.
+pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, size_parameter: f64) -> Vec<u32> {
+    let theta: Vec<f64> =
+        (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
+    let doubtful = |order: &u32| {
+        let beams = GaussianBeams::new(tracer, &[*order], size_parameter);
+        fan.some_azimuths(*order, AZIMUTHS).into_iter().any(|phi| {
+            let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
+            beams.add(&theta, phi, &mut waves);
+            differs(&fan.columns_of(*order, &theta, phi), &waves)
+        })
+    };
+    fan.regular_orders(TANGLED, tracer)
+        .into_iter()
+        .filter(|order| ORDERS.contains(order))
+        .filter(doubtful)
+        .collect()
+}
+
+/// Whether two columns differ grossly in a band that is not faint.
+fn differs(found: &[AmplitudeMatrix], beams: &[AmplitudeMatrix]) -> bool {
+    let power = |column: &[AmplitudeMatrix]| column.iter().map(AmplitudeMatrix::s11).sum::<f64>();
+    let faint = FAINT * power(beams) * BAND as f64 / beams.len() as f64;
+    found.chunks(BAND).zip(beams.chunks(BAND)).any(|(found, beams)| {
+        let off: f64 = found.iter().zip(beams).map(|(f, b)| (*f - *b).s11()).sum();
+        off > GROSS * GROSS * power(beams).max(power(found))
+            && power(beams).max(power(found)) > faint
+    })
+}
