@@ -6,7 +6,7 @@
 //! out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their phase.
 
 use super::fan::Fan;
-use super::{FarField, Source};
+use super::{FarField, Source, Tangled};
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
@@ -18,8 +18,9 @@ const BANDS: usize = 40;
 const FROM: f64 = PI / 18.0;
 const TO: f64 = PI - FROM;
 /// Share of its amplitude by which a wave of order 1 may be wrong that is a sum of Gaussian beams; for
-/// higher orders so many times that (measured against Debye terms).
+/// higher orders so many times that. The same for any order by patches. (Measured against Debye terms.)
 const BEAMS: f64 = 0.02;
+const PATCHES: f64 = 0.3;
 
 /// Relative errors of the intensity from 10° to 170°.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,7 @@ impl FarField<'_> {
     /// The method's own estimate of its error. `inside` is the power still inside after the last
     /// order, per power on the silhouette. `None` for patches alone, whose error is not known.
     pub fn error_estimate(&self, tracer: &Tracer, inside: f64) -> Option<ErrorEstimate> {
-        let Source::Meridians(fan, beams) = &self.source else { return None };
+        let Source::Meridians(fan, tangled) = &self.source else { return None };
         let x = self.size_parameter;
         // steps of an irrational ratio, so that no sample keeps to the knots
         let place = |k: usize| FROM + (TO - FROM) * (k as f64 * 0.618_033_988_749_895).fract();
@@ -45,18 +46,19 @@ impl FarField<'_> {
         let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
         let left_out = inside * self.silhouette.area() * x * x / (4.0 * PI);
         // the lowest order is the strongest
-        let share = BEAMS * f64::from(fan.irregular.first().copied().unwrap_or(0));
-        let by_beams = |i: usize| match beams {
-            Some(_) => share * share * (column.amplitude[i] - rays[i]).s11(),
-            None => 0.0,
+        let lowest = fan.irregular.first().copied().unwrap_or(0);
+        let share = match tangled {
+            Tangled::Beams(_) => BEAMS * f64::from(lowest),
+            _ => PATCHES,
         };
+        let of_tangled = |i: usize| share * share * (column.amplitude[i] - rays[i]).s11();
         let next_terms = x.powf(-4.0 / 3.0);
         let (mut squares, mut intensities, mut relative) = (0.0, 0.0, 0.0);
         for band in 0..BANDS {
             let samples = band * SAMPLES / BANDS..(band + 1) * SAMPLES / BANDS;
             let (mut wrong, mut all) = (0.0, 0.0);
             for i in samples {
-                wrong += missed[i] + left_out + by_beams(i);
+                wrong += missed[i] + left_out + of_tangled(i);
                 all += column.amplitude[i].s11();
             }
             let square = (2.0 * wrong / all).min(1.0) + next_terms;

@@ -45,7 +45,7 @@ pub use error_estimate::ErrorEstimate;
 
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
-use crate::trace::Tracer;
+use crate::trace::{Tracer, Wavefront};
 use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
 use forward_wave::ForwardWave;
@@ -65,8 +65,56 @@ pub struct FarField<'a> {
 /// How amplitudes are found.
 enum Source {
     Patches(CollectingSphere, Interference),
-    /// Meridians, and beams for the orders whose meridians do not correspond.
-    Meridians(Fan, Option<GaussianBeams>),
+    /// Meridians, and something else for the orders whose meridians do not correspond.
+    Meridians(Fan, Tangled),
+}
+
+/// How the waves of tangled orders are found: by beams, whose error falls like `1/√x`; by patches for
+/// particles so small that those do better.
+enum Tangled {
+    None,
+    Beams(GaussianBeams),
+    Patches(CollectingSphere, Interference),
+}
+
+/// Size parameter from which on tangled orders are sums of beams.
+const FIRST_OF_BEAMS: f64 = 1000.0;
+/// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`: patches may not exceed it.
+const FOLD_JACOBIAN: f64 = 0.5;
+/// Rings of the patch grid for tangled orders at a tolerance of 1 %.
+const PATCH_RINGS: f64 = 90.0;
+
+impl Tangled {
+    fn new(tracer: &Tracer, orders: &[u32], settings: &FanSettings) -> Self {
+        let size_parameter = settings.size_parameter;
+        if orders.is_empty() {
+            return Self::None;
+        }
+        if size_parameter >= FIRST_OF_BEAMS {
+            return Self::Beams(GaussianBeams::new(tracer, orders, size_parameter));
+        }
+        let rings = (PATCH_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
+        let wavefront =
+            Wavefront::corners(tracer.shape(), rings as usize, 2 * rings as usize, 0.0123);
+        let interpolation = PathInterpolation::Gradient;
+        let largest_jacobian = FOLD_JACOBIAN * size_parameter.cbrt();
+        let interference = Interference { size_parameter, interpolation, largest_jacobian };
+        let sheets = patch::sheets(tracer, &wavefront, orders);
+        Self::Patches(CollectingSphere::new(sheets), interference)
+    }
+
+    /// Add the waves in some directions of one azimuth, scattering angles ascending.
+    fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
+        match self {
+            Self::None => {}
+            Self::Beams(beams) => beams.add(theta, phi, sums),
+            Self::Patches(sphere, interference) => {
+                for (sum, &t) in sums.iter_mut().zip(theta) {
+                    *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
+                }
+            }
+        }
+    }
 }
 
 impl<'a> FarField<'a> {
@@ -87,11 +135,12 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let mut fan = Fan::new(tracer, settings, &silhouette);
-        for order in cross_check::doubtful_orders(&fan, tracer, settings.size_parameter) {
-            fan.give_up(order);
+        if settings.size_parameter >= FIRST_OF_BEAMS {
+            for order in cross_check::doubtful_orders(&fan, tracer, settings.size_parameter) {
+                fan.give_up(order);
+            }
         }
-        let tangled = (!fan.irregular.is_empty())
-            .then(|| GaussianBeams::new(tracer, &fan.irregular, settings.size_parameter));
+        let tangled = Tangled::new(tracer, &fan.irregular, settings);
         Self {
             source: Source::Meridians(fan, tangled),
             silhouette,
@@ -138,13 +187,11 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&phi| patch_column(sphere, interference, theta, phi, incoherent))
                 .collect(),
-            Source::Meridians(fan, beams) => {
+            Source::Meridians(fan, tangled) => {
                 let caustic_order = fan.caustic_order(theta);
                 let columns = fan.columns(theta, azimuths).into_iter().zip(azimuths);
                 let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
-                    if let Some(beams) = beams {
-                        beams.add(theta, phi, &mut amplitude);
-                    }
+                    tangled.add(theta, phi, &mut amplitude);
                     Column {
                         amplitude,
                         incoherent: Vec::new(),
@@ -164,11 +211,9 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
                 .collect(),
-            Source::Meridians(fan, beams) => scatter_by_columns(directions, |theta, phi| {
+            Source::Meridians(fan, tangled) => scatter_by_columns(directions, |theta, phi| {
                 let mut column = fan.columns(theta, &[phi]).swap_remove(0);
-                if let Some(beams) = beams {
-                    beams.add(theta, phi, &mut column);
-                }
+                tangled.add(theta, phi, &mut column);
                 column
             }),
         };
