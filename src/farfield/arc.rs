@@ -5,80 +5,19 @@
 //! combinations, on the lit and on the dark side. Knots sit at the same fractions of a segment on
 //! every meridian, so that all their data vary smoothly with azimuth too.
 
+use super::arc_layout::ArcLayout;
+use super::arc_search::Edge;
 use super::axis_wave::AxisWave;
 use super::bow_wave::{self, Stretch};
-use super::fold::{Fold, PAIR_CHANNELS};
-use super::meridian::{GRAZING, Meridian, Node};
-use super::rim::{RimLayout, RimWave};
-use super::segment::{
-    CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
-};
-use super::taper::Taper;
-use crate::math::chebyshev::Chebyshev;
+use super::fold::Fold;
+use super::meridian::{Meridian, Node};
+use super::rim::RimWave;
 use crate::shape::Silhouette;
-use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Settings shared by all meridians of an order, so that their segments correspond.
-#[derive(Clone, Debug)]
-pub struct ArcLayout {
-    /// Nodes of the first scan.
-    pub scan: usize,
-    /// Angle about later axis crossings that is left out, radians.
-    pub axis_gap: f64,
-    pub folds: Vec<FoldLayout>,
-    /// Launch coordinate at which the last plain segment is cut in two, where last rays differ: the
-    /// inner part does not depend on them.
-    pub cut: Option<f64>,
-    /// Knots per radian of exit angle.
-    pub density: f64,
-    /// Pieces of each plain segment; empty while the layout is being found.
-    pub knots: Vec<usize>,
-    pub size_parameter: f64,
-    /// Where an integral takes over from rays near the rim.
-    pub rim: Option<RimLayout>,
-    /// Where the edge wave takes over from reflected rays, by the cosine of the grazing angle.
-    pub edge: Option<Taper>,
-}
-
-impl ArcLayout {
-    /// The same with twice the knots.
-    pub(super) fn finer(&self) -> Self {
-        Self {
-            density: 2.0 * self.density,
-            knots: self.knots.iter().map(|count| 2 * count).collect(),
-            folds: self.folds.iter().map(FoldLayout::finer).collect(),
-            rim: self.rim.as_ref().map(RimLayout::finer),
-            ..self.clone()
-        }
-    }
-}
-
-/// The segment about a fold.
-#[derive(Clone, Debug)]
-pub struct FoldLayout {
-    /// Its reach on the dark and the lit side, radians.
-    pub dark: f64,
-    pub lit: f64,
-    /// Argument of the Airy function per radian, where it grows fastest.
-    pub per_angle: f64,
-    /// For an integral over impacts in place of a pair: places of its knots, radians from the fold.
-    pub integral: Option<Vec<f64>>,
-}
-
-impl FoldLayout {
-    fn finer(&self) -> Self {
-        let between = |knots: &Vec<f64>| {
-            let halves = knots.windows(2).flat_map(|w| [w[0], 0.5 * (w[0] + w[1])]);
-            halves.chain(knots.last().copied()).collect()
-        };
-        Self { integral: self.integral.as_ref().map(between), ..*self }
-    }
-}
 
 /// Landmarks along a meridian.
 #[derive(Clone, Debug)]
-enum Landmark {
+pub(super) enum Landmark {
     Axial,
     Fold(Fold),
     /// Crossing of the axis between two nodes; unwrapped angle of the axis.
@@ -91,17 +30,12 @@ enum Landmark {
 
 /// A meridian with its landmarks found, ready to be cut into segments.
 pub struct Arc<'a> {
-    meridian: Meridian<'a>,
-    silhouette: &'a Silhouette<'a>,
-    nodes: Vec<Node>,
-    landmarks: Vec<Landmark>,
+    pub(super) meridian: Meridian<'a>,
+    pub(super) silhouette: &'a Silhouette<'a>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) landmarks: Vec<Landmark>,
     last: Node,
 }
-
-/// Chebyshev points of a pair segment.
-const PAIR_POINTS: usize = 20;
-/// Ends of plain segments are bisected to this in α.
-const END_TOLERANCE: f64 = 1e-9;
 
 impl<'a> Arc<'a> {
     /// Scan a meridian. `None` when its rays do not form a chain this method understands.
@@ -199,24 +133,6 @@ impl<'a> Arc<'a> {
         Some([sense * farthest, self.last.angle - first.angle])
     }
 
-    /// The last ray that still leaves, within a step beyond a node. Rays farther out may leave
-    /// again, but total reflection parts them from this stretch.
-    fn end_after(&self, last: Node, step: f64) -> Node {
-        let rim = FRAC_PI_2 - GRAZING;
-        let (mut good, mut bad) = (last, (last.alpha + 1.01 * step).min(rim));
-        if let Some(node) = self.meridian.node(self.silhouette, bad, last.psi, last.angle) {
-            return node;
-        }
-        while bad - good.alpha > END_TOLERANCE {
-            let middle = 0.5 * (bad + good.alpha);
-            match self.meridian.node(self.silhouette, middle, good.psi, good.angle) {
-                Some(node) => good = node,
-                None => bad = middle,
-            }
-        }
-        good
-    }
-
     /// Signature by which meridians correspond.
     pub fn signature(&self) -> String {
         let letter = |l: &Landmark| match l {
@@ -265,40 +181,12 @@ impl<'a> Arc<'a> {
     }
 
     /// The landmarks, with one more before the last.
-    fn marks<'l>(&'l self, cut: &'l Option<Landmark>) -> Vec<&'l Landmark> {
+    pub(super) fn marks<'l>(&'l self, cut: &'l Option<Landmark>) -> Vec<&'l Landmark> {
         let mut marks: Vec<&Landmark> = self.landmarks.iter().collect();
         if let Some(cut) = cut {
             marks.insert(marks.len() - 1, cut);
         }
         marks
-    }
-
-    /// Cut into segments between the ends found before. `None` where a ray cannot be found.
-    pub fn segments(&self, layout: &ArcLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
-        let mut segments = Vec::new();
-        let mut folds = layout.folds.iter();
-        let cut = layout.cut.map(Landmark::Cut);
-        for (k, (pair, count)) in self.marks(&cut).windows(2).zip(&layout.knots).enumerate() {
-            if let Landmark::Fold(fold) = pair[0] {
-                let about = folds.next()?;
-                let x = layout.size_parameter;
-                let stretch = || self.stretch(fold, k, x);
-                let integral =
-                    about.integral.as_ref().and_then(|places| Some((places, stretch()?)));
-                segments.push(match integral {
-                    Some((places, stretch)) => {
-                        let rays = [&ends[k - 1][1], &ends[k][0]];
-                        bow_wave::segment(self, fold, &stretch, rays, places, x)?
-                    }
-                    None => self.pair_segment(fold, about.dark, about.lit, layout)?,
-                });
-            }
-            segments.push(self.plain_segment([pair[0], pair[1]], &ends[k], *count, layout)?);
-        }
-        if let Some(rim) = &layout.rim {
-            segments.extend(RimWave::new(self, rim, layout.size_parameter)?.segments()?);
-        }
-        Some(segments)
     }
 
     /// The waves about the axis of rays that cross it, in a rotationally symmetric scene.
@@ -381,227 +269,13 @@ impl<'a> Arc<'a> {
         })
     }
 
-    fn stretch(&self, fold: &Fold, k: usize, size_parameter: f64) -> Option<Stretch> {
+    pub(super) fn stretch(&self, fold: &Fold, k: usize, size_parameter: f64) -> Option<Stretch> {
         let limits = [self.launch(&self.landmarks[k - 1])?, self.launch(&self.landmarks[k + 1])?];
         Stretch::about(self, fold, limits, size_parameter)
-    }
-
-    fn pair_segment(
-        &self,
-        fold: &Fold,
-        dark: f64,
-        reach: f64,
-        layout: &ArcLayout,
-    ) -> Option<Segment> {
-        let series = fold.sample(&self.meridian, dark, reach, PAIR_POINTS)?;
-        let count = 2 + (1.5 * layout.density * (dark + reach)).ceil() as usize;
-        let knots = (0..=count)
-            .map(|k| pair_knot(fold, &series, -dark + (dark + reach) * k as f64 / count as f64))
-            .collect();
-        Some(Segment { kind: Kind::Pair { focal_lines: fold.focal_lines }, knots })
-    }
-
-    /// One ray per direction between two landmarks, at `count + 1` knots.
-    fn plain_segment(
-        &self,
-        [start, end]: [&Landmark; 2],
-        [a, b]: &[Node; 2],
-        count: usize,
-        layout: &ArcLayout,
-    ) -> Option<Segment> {
-        let closer = [
-            matches!(start, Landmark::Axis(_)),
-            matches!(end, Landmark::End(_) | Landmark::Axis(_)),
-        ];
-        let mut knots = Vec::with_capacity(count + 1);
-        let mut focal_lines = a.exit.focal_lines;
-        for k in 0..=count {
-            let share = graded(k as f64 / count as f64, closer);
-            let node = if k == 0 {
-                *a
-            } else if k == count {
-                *b
-            } else {
-                self.interpolated(a.alpha + share * (b.alpha - a.alpha))?
-            };
-            if 2 * k == count || 2 * k == count + 1 {
-                focal_lines = node.exit.focal_lines;
-            }
-            knots.push(self.plain_knot(&node, layout));
-        }
-        let slopes = parabola_slopes(&knots);
-        for (knot, slope) in knots.iter_mut().zip(slopes) {
-            knot[SLOPE..SLOPE + 8].copy_from_slice(&slope[PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 8]);
-        }
-        let from_axis = matches!(start, Landmark::Axial);
-        Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })
-    }
-
-    /// A ray at `α`, its neighbours in the scan giving the guess.
-    fn interpolated(&self, alpha: f64) -> Option<Node> {
-        let nodes = &self.nodes;
-        let k = nodes.partition_point(|n| n.alpha < alpha).clamp(1, nodes.len() - 1);
-        let (a, b) = (&nodes[k - 1], &nodes[k]);
-        let share = (alpha - a.alpha) / (b.alpha - a.alpha);
-        let angle = a.angle + share * (b.angle - a.angle);
-        // next to total reflection the azimuth runs like a square root: other guesses may do better
-        [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter().find_map(|s| {
-            self.meridian.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
-        })
     }
 
     /// Pieces between knots that a plain segment needs.
     pub fn pieces(ends: &[Node; 2], density: f64) -> usize {
         4 + (density * (ends[1].angle - ends[0].angle).abs()).ceil() as usize
     }
-
-    /// The ray at an edge of a plain segment.
-    fn find(&self, edge: Edge, is_start: bool) -> Option<Node> {
-        match edge {
-            Edge::Alpha(alpha) => self.interpolated(alpha),
-            Edge::Last(node) => Some(*node),
-            Edge::Angle { angle, near } => self.at_angle(angle, near, is_start),
-            Edge::Axis { axis, gap } => {
-                // beyond the crossing where a segment starts, before it where one ends
-                let k = self.nodes.windows(2).position(|w| {
-                    (w[0].angle - axis) * (w[1].angle - axis) <= 0.0 && w[0].alpha > 0.0
-                })?;
-                let side = if is_start { self.nodes[k + 1] } else { self.nodes[k] };
-                let angle = axis + gap * (side.angle - axis).signum();
-                self.at_angle(angle, side.alpha, is_start)
-            }
-        }
-    }
-
-    /// The ray of a given angle, beyond (`is_start`) or before `α = near`.
-    fn at_angle(&self, angle: f64, near: f64, is_start: bool) -> Option<Node> {
-        let nodes = &self.nodes;
-        let window = |w: &[Node]| (w[0].angle - angle) * (w[1].angle - angle) <= 0.0;
-        let bracket = if is_start {
-            nodes.windows(2).find(|w| w[1].alpha >= near && window(w))
-        } else {
-            nodes.windows(2).rev().find(|w| w[0].alpha <= near && window(w))
-        };
-        let (mut a, mut b) = match bracket {
-            Some(w) => (w[0], w[1]),
-            // between the last node of the scan and the edge of the gap, extrapolate
-            None => return self.beyond_scan(angle, near),
-        };
-        for _ in 0..40 {
-            let share = ((angle - a.angle) / (b.angle - a.angle)).clamp(0.02, 0.98);
-            let (alpha, psi) =
-                (a.alpha + share * (b.alpha - a.alpha), a.psi + share * (b.psi - a.psi));
-            let node = self.meridian.node(self.silhouette, alpha, psi, angle)?;
-            if (node.angle - angle).abs() < 1e-13 || b.alpha - a.alpha < 1e-14 {
-                return Some(Node { angle, ..node });
-            }
-            if (node.angle - angle) * (a.angle - angle) > 0.0 { a = node } else { b = node }
-        }
-        let node = self.meridian.node(self.silhouette, 0.5 * (a.alpha + b.alpha), a.psi, angle)?;
-        Some(Node { angle, ..node })
-    }
-
-    /// A ray just outside the scanned stretch next to `α = near`, by Newton's method on the angle.
-    fn beyond_scan(&self, angle: f64, near: f64) -> Option<Node> {
-        let nearest = |n: &&Node| (n.alpha - near).abs();
-        let mut node = *self.nodes.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
-        let h = 1e-5;
-        for _ in 0..20 {
-            let ahead =
-                self.meridian.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
-            let rate = (ahead.angle - node.angle) / h;
-            let step = (angle - node.angle) / rate;
-            if step.is_nan() || step.abs() >= 0.3 {
-                return None;
-            }
-            node = self.meridian.node(self.silhouette, node.alpha + step, node.psi, angle)?;
-            if (node.angle - angle).abs() < 1e-12 {
-                return Some(Node { angle, ..node });
-            }
-        }
-        None
-    }
-
-    /// The spread of a ray, kept from zero where rays meet across the plane.
-    fn bounded_spread(&self, node: &Node) -> f64 {
-        const NEAREST: f64 = 0.05;
-        let spread = node.exit.spread().abs();
-        let symmetric = self.meridian.tracer.shape().rotational_symmetry();
-        if self.meridian.order <= 3 || symmetric {
-            return spread;
-        }
-        let across = self.meridian.spread_across(&node.exit, node.angle).abs();
-        spread * (across.max(NEAREST) / across)
-    }
-
-    fn plain_knot(&self, node: &Node, layout: &ArcLayout) -> Knot {
-        let (_, growing) = self.meridian.frame(node.angle);
-        let transfer = self.meridian.transfer(&node.exit, node.angle);
-        let rim = layout.rim.as_ref().map(|rim| rim.weight(node.alpha.sin()));
-        let edge =
-            layout.edge.map(|edge| reflected_share(&edge, node.angle, layout.size_parameter));
-        let share = edge.unwrap_or_else(|| (1.0 - rim.unwrap_or(0.0)).into());
-        // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
-        // that focus at infinity, as about the axis for indices of 2 and 4.
-        let spread = self.bounded_spread(node).max(4.0 / layout.size_parameter.powi(2));
-        let size = share / spread.sqrt();
-        let mut knot = [0.0; CHANNELS];
-        knot[0] = node.angle;
-        knot[1] = node.exit.path;
-        knot[2] = -node.exit.reference.dot(growing);
-        for (k, s) in [transfer.s1, transfer.s2, transfer.s3, transfer.s4].into_iter().enumerate() {
-            let amplitude = s * size;
-            knot[PLAIN_AMPLITUDE + 2 * k] = amplitude.re;
-            knot[PLAIN_AMPLITUDE + 2 * k + 1] = amplitude.im;
-        }
-        knot
-    }
-}
-
-/// What the edge wave leaves to a ray reflected by an angle: the complement of its weight, with the
-/// next term of stationary phase, since the weight changes over few Fresnel zones.
-fn reflected_share(edge: &Taper, angle: f64, x: f64) -> Complex64 {
-    let cos = (0.5 * angle).cos();
-    let [weight, slope, bend] = edge.with_derivatives(cos);
-    if weight == 0.0 || weight == 1.0 {
-        return (1.0 - weight).into();
-    }
-    // the phase x (L(β) - βϑ) of a sphere: second derivative, and its own relative slope
-    let sin = (1.0 - cos * cos).sqrt();
-    let (second, relative) = (-2.0 / sin, cos / (sin * sin));
-    Complex64::new(1.0 - weight, (relative * slope - bend) / (2.0 * x * second))
-}
-
-/// A share of the way from 0 to 1 in steps that get closer towards either end: towards the rim or
-/// total reflection the exit angle runs like a square root, and from the axis the amplitude falls
-/// like one over it.
-fn graded(share: f64, closer: [bool; 2]) -> f64 {
-    match closer {
-        [false, false] => share,
-        [false, true] => share * (2.0 - share),
-        [true, false] => share * share,
-        [true, true] => share * share * (3.0 - 2.0 * share),
-    }
-}
-
-/// Where a plain segment begins or ends.
-#[derive(Clone, Debug)]
-enum Edge {
-    Alpha(f64),
-    Last(Box<Node>),
-    Angle { angle: f64, near: f64 },
-    Axis { axis: f64, gap: f64 },
-}
-
-fn pair_knot(fold: &Fold, series: &Chebyshev<PAIR_CHANNELS>, delta: f64) -> Knot {
-    let (value, slope) = series.at(delta);
-    let mut knot = [0.0; CHANNELS];
-    knot[0] = fold.angle + fold.lit * delta;
-    knot[1] = value[0];
-    knot[2] = fold.lit * slope[0];
-    knot[3] = value[1];
-    knot[4] = fold.lit * slope[1];
-    let amplitudes = &value[2..];
-    knot[PAIR_AMPLITUDE..PAIR_AMPLITUDE + amplitudes.len()].copy_from_slice(amplitudes);
-    knot
 }

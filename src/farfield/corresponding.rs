@@ -1,7 +1,8 @@
 //! Tracing the meridians of an order at several azimuths, and cutting them into segments that
 //! correspond: the same landmarks, the same knots.
 
-use super::arc::{Arc, ArcLayout, FoldLayout};
+use super::arc::Arc;
+use super::arc_layout::{ArcLayout, FoldLayout};
 use super::axis_wave::AxisWave;
 use super::bow_wave;
 use super::meridian::{Meridian, Node, axial_ray};

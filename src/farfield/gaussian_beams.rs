@@ -2,16 +2,17 @@
 //!
 //! Where more than two rays coalesce (cusps, umbilics, the webs that strongly flattened drops make of
 //! high orders) no formula for single rays or pairs holds, but the wave is still an integral over the
-//! launch points of its rays (Kirchhoff, on a plane normal to each exit direction at distance `d`),
-//! `S(n) = -(x²/2π) ∬ T √|A| e^{-iπm/2} exp(ix [W + r·(s - n)]) d²y`, `A = |∂r/∂y|`.
-//! Launch points are cut into Gaussians of width `σ/√x` that add up to 1; each sees a phase of second
-//! degree, `M = (∂r/∂y)ᵀ(∂s/∂y)`, so that its integral is a Gaussian of directions about its exit ray:
-//! finite and smooth at every caustic. The error is that of third derivatives, of the order of
-//! `σ³/√x`. (Popov 1982; Heller 1991.)
+//! launch points `y` of its rays (Kirchhoff, on the plane through the centre normal to each exit ray),
+//! `S(n) = -(x²/2π) ∬ T √|A| e^{-iπm/2} exp(ix [W + r·(s - n)]) d²y`, `A = |∂r/∂y|`,
+//! `r` where the ray crosses its plane, `m` the focal lines passed up to there. Launch points are cut
+//! into Gaussians of width `σ/√x` that add up to 1. Each sees a phase of second degree,
+//! `(∂r/∂y)ᵀ(∂s/∂y) + ∂²r/∂y²·(s - n)`, so that its integral is a Gaussian of directions about its exit
+//! ray: finite and smooth at every caustic. The error falls like `1/√x`. (Popov 1982; Heller 1991.)
 //!
-//! Launch coordinates `y` go with the angle of incidence, `|y| = arcsin` of the way to the rim, in
-//! which phases stay smooth up to the rim. Beyond it nothing is launched.
+//! The plane must be the same for neighbouring rays: one that jumps from ray to ray leaves edges that
+//! shine. Through the centre it meets no focus of a sphere's rays, and hardly one of a drop's.
 
+use super::beam_launch::Launch;
 use super::direction::Direction;
 use crate::math::phase::sin_cos_turns;
 use crate::math::vec3::{Field, Vec3};
@@ -56,7 +57,8 @@ struct Beam {
 /// even to 1e-4.
 const WIDTH: f64 = 0.8;
 const STEP: f64 = 1.5;
-/// Exponent at which a beam no longer counts, and farthest angle at which one is looked at.
+/// Exponent at which a beam no longer counts, and farthest angle at which one is looked at, in `1/√x`:
+/// beyond, its second degree does not hold, and what beams at the rim spread there is not cancelled.
 const FARTHEST_EXPONENT: f64 = 9.0;
 const FARTHEST: f64 = 10.0;
 /// Fields weaker than this share of the strongest of their order are left out.
@@ -70,34 +72,15 @@ impl GaussianBeams {
     /// Trace the beams of some orders.
     pub fn new(tracer: &Tracer, orders: &[u32], size_parameter: f64) -> Self {
         let silhouette = tracer.shape().silhouette().tabulated();
-        let step = STEP * WIDTH / size_parameter.sqrt();
+        let step = step(size_parameter);
         let rows = (1.0 / step).ceil() as i64;
-        let beam_at = |tracer: &Tracer,
-                       silhouette: &Silhouette,
-                       order,
-                       launch: &Launch,
-                       place: [f64; 2],
-                       step| {
-            let exit =
-                |launch: &Launch| tracer.trace_order(launch.point[0], launch.point[1], order);
-            let beside = |k: usize, sign: f64| {
-                let mut place = place;
-                place[k] += sign * APART;
-                let launch = Launch::at(silhouette, place)?;
-                Some((exit(&launch)?, launch))
-            };
-            let both = |k: usize| Some([beside(k, -1.0)?, beside(k, 1.0)?]);
-            let own: Exit<f64> = exit(launch)?;
-            Beam::new(&own, launch, &[both(0)?, both(1)?], APART, step, size_parameter)
-        };
         let row = |j: i64| {
             let mut found: Vec<(u32, Beam)> = Vec::new();
             for i in -rows..rows {
                 // rows lie half a step off the mirror plane, which pairs them
                 let place = [(i as f64 + 0.5) * step, (j as f64 + 0.5) * step];
-                let Some(launch) = Launch::at(&silhouette, place) else { continue };
                 for &order in orders {
-                    let beam = beam_at(tracer, &silhouette, order, &launch, place, step);
+                    let beam = Beam::traced(tracer, &silhouette, order, place, size_parameter);
                     found.extend(beam.map(|beam| (order, beam)));
                 }
             }
@@ -177,57 +160,42 @@ impl GaussianBeams {
     }
 }
 
+/// Distance of neighbouring beams in launch coordinates.
+fn step(size_parameter: f64) -> f64 {
+    STEP * WIDTH / size_parameter.sqrt()
+}
+
 fn sector_of(phi: f64) -> usize {
     ((phi.rem_euclid(TAU) / TAU * SECTORS as f64) as usize).min(SECTORS - 1)
 }
 
-/// A launch point and its derivatives by `y`.
-struct Launch {
-    point: [f64; 2],
-    /// `∂(u, v)/∂y`, one column for each coordinate of `y`.
-    columns: [[f64; 2]; 2],
-    determinant: f64,
-}
-
-impl Launch {
-    /// The point that belongs to `y`; `None` beyond the rim.
-    fn at(silhouette: &Silhouette, y: [f64; 2]) -> Option<Self> {
-        let t = y[0].hypot(y[1]);
-        if t >= 1.0 {
-            return None;
-        }
-        let (cos, sin) = (y[0] / t, y[1] / t);
-        let (radius, slope) = silhouette.radius_and_slope(sin.atan2(cos));
-        let third = (1.0 - t * t).cbrt();
-        let share = (1.0 - third.powi(4)).sqrt();
-        let rate = 4.0 / 3.0 * t * third / share;
-        // along the ray from the centre, and across it
-        let along = [rate * radius * cos, rate * radius * sin];
-        let turn = share / t;
-        let across = [turn * (slope * cos - radius * sin), turn * (slope * sin + radius * cos)];
-        let column = |a: f64, b: f64| [along[0] * a + across[0] * b, along[1] * a + across[1] * b];
-        Some(Self {
-            point: [share * radius * cos, share * radius * sin],
-            columns: [column(cos, -sin), column(sin, cos)],
-            determinant: radius * radius * turn * rate,
-        })
-    }
-
-    /// Derivatives by `y` from those by `(u, v)`.
-    fn by_place(&self, by_point: &[Vec3<f64>; 2]) -> [Vec3<f64>; 2] {
-        self.columns.map(|[a, b]| by_point[0] * a + by_point[1] * b)
-    }
-}
-
 impl Beam {
+    /// Launched at a place, if it and its neighbours leave.
+    fn traced(
+        tracer: &Tracer,
+        silhouette: &Silhouette,
+        order: u32,
+        place: [f64; 2],
+        x: f64,
+    ) -> Option<Self> {
+        let ray = |place: [f64; 2]| {
+            let launch = Launch::at(silhouette, place)?;
+            Some((tracer.trace_order(launch.point[0], launch.point[1], order)?, launch))
+        };
+        let beside = |k: usize, off: f64| {
+            let mut place = place;
+            place[k] += off;
+            ray(place)
+        };
+        let both = |k: usize| Some([beside(k, -APART)?, beside(k, APART)?]);
+        Self::new(&ray(place)?, &[both(0)?, both(1)?], x)
+    }
+
     /// From an exit ray and those a little beside it, on both sides of either coordinate. `None`
     /// where nothing finite comes out.
     fn new(
-        exit: &Exit<f64>,
-        launch: &Launch,
+        (exit, launch): &(Exit<f64>, Launch),
         beside: &[[(Exit<f64>, Launch); 2]; 2],
-        apart: f64,
-        step: f64,
         x: f64,
     ) -> Option<Self> {
         let moved = moved(exit, launch);
@@ -235,7 +203,7 @@ impl Beam {
         let rate = |k: usize| {
             let [before, after] =
                 beside[k].each_ref().map(|(exit, launch)| self::moved(exit, launch));
-            [0, 1].map(|l| (after[l] - before[l]) * (0.5 / apart))
+            [0, 1].map(|l| (after[l] - before[l]) * (0.5 / APART))
         };
         let (by_first, by_second) = (rate(0), rate(1));
         let bent = [by_first[0], by_second[1], (by_first[1] + by_second[0]) * 0.5];
@@ -248,7 +216,7 @@ impl Beam {
         let determinant = s.dot(moved[0].cross(moved[1]));
         let lines = exit.focal_lines.saturating_sub(lines_ahead(moved, turned, s));
         let size =
-            -(x * step / WIDTH).powi(2) / TAU * (launch.determinant * determinant.abs()).sqrt();
+            -(x * step(x) / WIDTH).powi(2) / TAU * (launch.determinant * determinant.abs()).sqrt();
         let factor = Complex64::cis(-FRAC_PI_2 * f64::from(lines)) * size;
         let scaled = |f: Field| Vec3 { x: f.x * factor, y: f.y * factor, z: f.z * factor };
         let mut beam = Self {

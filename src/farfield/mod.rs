@@ -9,7 +9,11 @@
 //! [`forward_wave`] is what goes straight on; [`tabulate`] makes the values of a table.
 
 pub mod arc;
+mod arc_layout;
+mod arc_search;
+mod arc_segments;
 mod axis_wave;
+mod beam_launch;
 mod bow_wave;
 pub mod collecting_sphere;
 mod corresponding;
@@ -29,6 +33,7 @@ pub mod gaussian_filter;
 pub mod huygens_fresnel;
 pub mod interference;
 pub mod meridian;
+mod order_fan;
 pub mod patch;
 pub mod rim;
 mod rim_integrand;
