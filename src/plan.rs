@@ -70,6 +70,9 @@ pub struct Plan {
     pub forward_diffraction: bool,
     /// Relative error asked for.
     pub tolerance: f64,
+    /// Whether rays of flattened particles are checked by a second method; many runs of much the same
+    /// particle may do without.
+    pub checked: bool,
     /// Grid of the patches: rings from centre to rim, and spokes.
     pub rings: usize,
     pub spokes: usize,
@@ -117,6 +120,7 @@ impl Plan {
             orders,
             forward_diffraction,
             tolerance: scene.tolerance,
+            checked: true,
             rings,
             spokes: 2 * rings,
             reasons,
@@ -144,6 +148,7 @@ impl Plan {
             orders,
             forward_diffraction,
             tolerance,
+            checked: true,
             rings,
             spokes: 2 * rings,
             reasons,

@@ -18,7 +18,7 @@ fn angles(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 fn beams(tracer: &Tracer, order: u32, x: f64, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
     let mut found = vec![AmplitudeMatrix::default(); theta.len()];
-    GaussianBeams::new(tracer, &[order], x).add(theta, phi, &mut found);
+    GaussianBeams::new(tracer, &[order], &[phi], x).add(theta, phi, &mut found);
     found
 }
 
@@ -103,6 +103,7 @@ fn doubtful_meridians_are_left_to_beams() {
             orders: &[1],
             tolerance: 0.01,
             diffraction: false,
+            checked: true,
             azimuths: &azimuths,
         };
         FarField::meridians(&tracer, &settings).irregular().to_vec()

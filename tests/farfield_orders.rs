@@ -37,8 +37,14 @@ fn rays_of(
 ) -> Vec<AmplitudeMatrix> {
     let last = orders.iter().copied().max().unwrap();
     let tracer = Tracer::new(shape, m, x, last).with_curved_interface(x);
-    let settings =
-        FanSettings { size_parameter: x, orders, tolerance: 0.01, diffraction, azimuths: &[0.4] };
+    let settings = FanSettings {
+        size_parameter: x,
+        orders,
+        tolerance: 0.01,
+        diffraction,
+        checked: true,
+        azimuths: &[0.4],
+    };
     let far_field = FarField::meridians(&tracer, &settings);
     assert!(far_field.irregular().is_empty());
     let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, 0.4)).collect();

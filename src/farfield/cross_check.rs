@@ -29,8 +29,9 @@ pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, size_parameter: f64) -
     let theta: Vec<f64> =
         (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
     let doubtful = |order: &u32| {
-        let beams = GaussianBeams::new(tracer, &[*order], size_parameter);
-        fan.some_azimuths(*order, AZIMUTHS).into_iter().any(|phi| {
+        let azimuths = fan.some_azimuths(*order, AZIMUTHS);
+        let beams = GaussianBeams::new(tracer, &[*order], &azimuths, size_parameter);
+        azimuths.into_iter().any(|phi| {
             let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
             beams.add(&theta, phi, &mut waves);
             differs(&fan.columns_of(*order, &theta, phi), &waves)

@@ -69,20 +69,20 @@ const APART: f64 = 1e-3;
 const SECTORS: usize = 720;
 
 impl GaussianBeams {
-    /// Trace the beams of some orders.
-    pub fn new(tracer: &Tracer, orders: &[u32], size_parameter: f64) -> Self {
+    /// Trace the beams of some orders, as far as they reach one of these azimuths.
+    pub fn new(tracer: &Tracer, orders: &[u32], azimuths: &[f64], size_parameter: f64) -> Self {
         let silhouette = tracer.shape().silhouette().tabulated();
         let step = step(size_parameter);
         let rows = (1.0 / step).ceil() as i64;
+        let half_planes = HalfPlanes::new(azimuths);
+        let farthest = FARTHEST / size_parameter.sqrt();
+        let reaches = |exit: &Exit<f64>| half_planes.near(exit.direction, farthest);
         let row = |j: i64| {
             let mut found: Vec<(u32, Beam)> = Vec::new();
             for i in -rows..rows {
                 // rows lie half a step off the mirror plane, which pairs them
                 let place = [(i as f64 + 0.5) * step, (j as f64 + 0.5) * step];
-                for &order in orders {
-                    let beam = Beam::traced(tracer, &silhouette, order, place, size_parameter);
-                    found.extend(beam.map(|beam| (order, beam)));
-                }
+                found.extend(beams_at(tracer, &silhouette, orders, place, size_parameter, reaches));
             }
             found
         };
@@ -160,6 +160,62 @@ impl GaussianBeams {
     }
 }
 
+/// The beams launched at a place, of those orders whose rays reach far enough.
+fn beams_at(
+    tracer: &Tracer,
+    silhouette: &Silhouette,
+    orders: &[u32],
+    place: [f64; 2],
+    x: f64,
+    reaches: impl Fn(&Exit<f64>) -> bool,
+) -> Vec<(u32, Beam)> {
+    let rays = |off: [f64; 2]| -> Option<(Launch, Vec<Exit<f64>>)> {
+        let launch = Launch::at(silhouette, [place[0] + off[0], place[1] + off[1]])?;
+        let mut exits = Vec::new();
+        let keep = |exit: Exit<f64>| exits.extend(orders.contains(&exit.order).then_some(exit));
+        tracer.trace(launch.point[0], launch.point[1], keep)?;
+        Some((launch, exits))
+    };
+    let Some((launch, exits)) = rays([0.0; 2]) else { return Vec::new() };
+    if !exits.iter().any(&reaches) {
+        return Vec::new();
+    }
+    let beside = [[-APART, 0.0], [APART, 0.0], [0.0, -APART], [0.0, APART]].map(rays);
+    let [Some(a), Some(b), Some(c), Some(d)] = beside else { return Vec::new() };
+    let beam = |exit: &Exit<f64>| {
+        let of_order = |(launch, exits): &(Launch, Vec<Exit<f64>>)| {
+            let exit = exits.iter().find(|other| other.order == exit.order)?;
+            Some(moved(exit, launch))
+        };
+        let around = [[of_order(&a)?, of_order(&b)?], [of_order(&c)?, of_order(&d)?]];
+        Some((exit.order, Beam::new(exit, &launch, &around, x)?))
+    };
+    exits.iter().filter(|exit| reaches(exit)).filter_map(beam).collect()
+}
+
+/// The half-planes of some azimuths and of their mirror images; none where they are so many that every
+/// ray is near one.
+struct HalfPlanes(Option<Vec<(f64, f64)>>);
+
+impl HalfPlanes {
+    fn new(azimuths: &[f64]) -> Self {
+        const MOST: usize = 40;
+        let both = |&azimuth: &f64| [azimuth.sin_cos(), (-azimuth).sin_cos()];
+        Self((azimuths.len() <= MOST).then(|| azimuths.iter().flat_map(both).collect()))
+    }
+
+    /// Whether a direction comes nearer to one than an angle.
+    fn near(&self, direction: Vec3<f64>, angle: f64) -> bool {
+        let Some(planes) = &self.0 else { return true };
+        let Vec3 { x, y, .. } = direction;
+        let chord = angle.sin();
+        planes.iter().any(|(sin, cos)| {
+            let (along, aside) = (x * cos + y * sin, y * cos - x * sin);
+            if along > 0.0 { aside.abs() < chord } else { x.hypot(y) < chord }
+        })
+    }
+}
+
 /// Distance of neighbouring beams in launch coordinates.
 fn step(size_parameter: f64) -> f64 {
     STEP * WIDTH / size_parameter.sqrt()
@@ -170,39 +226,18 @@ fn sector_of(phi: f64) -> usize {
 }
 
 impl Beam {
-    /// Launched at a place, if it and its neighbours leave.
-    fn traced(
-        tracer: &Tracer,
-        silhouette: &Silhouette,
-        order: u32,
-        place: [f64; 2],
-        x: f64,
-    ) -> Option<Self> {
-        let ray = |place: [f64; 2]| {
-            let launch = Launch::at(silhouette, place)?;
-            Some((tracer.trace_order(launch.point[0], launch.point[1], order)?, launch))
-        };
-        let beside = |k: usize, off: f64| {
-            let mut place = place;
-            place[k] += off;
-            ray(place)
-        };
-        let both = |k: usize| Some([beside(k, -APART)?, beside(k, APART)?]);
-        Self::new(&ray(place)?, &[both(0)?, both(1)?], x)
-    }
-
-    /// From an exit ray and those a little beside it, on both sides of either coordinate. `None`
-    /// where nothing finite comes out.
+    /// From an exit ray and `∂r/∂y` of those a little beside it, on both sides of either coordinate.
+    /// `None` where nothing finite comes out.
     fn new(
-        (exit, launch): &(Exit<f64>, Launch),
-        beside: &[[(Exit<f64>, Launch); 2]; 2],
+        exit: &Exit<f64>,
+        launch: &Launch,
+        around: &[[[Vec3<f64>; 2]; 2]; 2],
         x: f64,
     ) -> Option<Self> {
         let moved = moved(exit, launch);
         let turned = launch.by_place(&exit.ds);
         let rate = |k: usize| {
-            let [before, after] =
-                beside[k].each_ref().map(|(exit, launch)| self::moved(exit, launch));
+            let [before, after] = around[k];
             [0, 1].map(|l| (after[l] - before[l]) * (0.5 / APART))
         };
         let (by_first, by_second) = (rate(0), rate(1));

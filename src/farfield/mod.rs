@@ -82,12 +82,19 @@ enum Tangled {
     Patches(CollectingSphere, Interference),
 }
 
-/// Size parameter from which on tangled orders are sums of beams.
+/// Size parameter from which on tangled orders are sums of beams, and the tolerance up to which they are
+/// worth their time: ten times that of patches where few directions are asked for.
 const FIRST_OF_BEAMS: f64 = 1000.0;
+const COARSEST_OF_BEAMS: f64 = 0.03;
 /// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`: patches may not exceed it.
 const FOLD_JACOBIAN: f64 = 0.5;
 /// Rings of the patch grid for tangled orders at a tolerance of 1 %.
 const PATCH_RINGS: f64 = 90.0;
+
+/// Whether beams serve.
+fn with_beams(settings: &FanSettings) -> bool {
+    settings.size_parameter >= FIRST_OF_BEAMS && settings.tolerance <= COARSEST_OF_BEAMS
+}
 
 impl Tangled {
     fn new(tracer: &Tracer, orders: &[u32], settings: &FanSettings) -> Self {
@@ -95,8 +102,13 @@ impl Tangled {
         if orders.is_empty() {
             return Self::None;
         }
-        if size_parameter >= FIRST_OF_BEAMS {
-            return Self::Beams(GaussianBeams::new(tracer, orders, size_parameter));
+        if with_beams(settings) {
+            return Self::Beams(GaussianBeams::new(
+                tracer,
+                orders,
+                settings.azimuths,
+                size_parameter,
+            ));
         }
         let rings = (PATCH_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
         let wavefront =
@@ -140,7 +152,7 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let mut fan = Fan::new(tracer, settings, &silhouette);
-        if settings.size_parameter >= FIRST_OF_BEAMS {
+        if settings.checked && with_beams(settings) {
             for order in cross_check::doubtful_orders(&fan, tracer, settings.size_parameter) {
                 fan.give_up(order);
             }
