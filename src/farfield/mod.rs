@@ -86,6 +86,8 @@ enum Tangled {
 /// worth their time: ten times that of patches where few directions are asked for.
 const FIRST_OF_BEAMS: f64 = 1000.0;
 const COARSEST_OF_BEAMS: f64 = 0.03;
+/// Size parameter from which on they are a measure of meridians, too.
+const FIRST_CHECKED: f64 = 6000.0;
 /// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`: patches may not exceed it.
 const FOLD_JACOBIAN: f64 = 0.5;
 /// Rings of the patch grid for tangled orders at a tolerance of 1 %.
@@ -152,7 +154,8 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let mut fan = Fan::new(tracer, settings, &silhouette);
-        if settings.checked && with_beams(settings) {
+        let checked = settings.checked && settings.size_parameter >= FIRST_CHECKED;
+        if checked && with_beams(settings) {
             for order in cross_check::doubtful_orders(&fan, tracer, settings.size_parameter) {
                 fan.give_up(order);
             }
