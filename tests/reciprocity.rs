@@ -44,11 +44,9 @@ impl Path {
     }
 }
 
-/// For order 2 some rays next to the rim are totally reflected inside on one of the two paths: the
-/// pair ends before them there, and single rays beyond keep fewer terms of stationary phase.
 #[test]
 fn reciprocity_of_a_spheroid() {
-    for (order, bound) in [(0u32, 1e-4), (1, 1e-4), (2, 2e-3), (3, 1e-4)] {
+    for (order, bound) in [(0u32, 1e-4), (1, 1e-4), (2, 1e-4), (3, 1e-4)] {
         let mut size: f64 = 0.0;
         let mut difference: f64 = 0.0;
         for (sun_deg, theta_deg, phi_deg) in [

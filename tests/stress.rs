@@ -245,12 +245,11 @@ fn threads_do_not_matter() {
     }
 }
 
-/// A table does not change when its azimuths start elsewhere or are fewer. (Order 3 is an integral at
-/// all azimuths of a table when it is at one; alone, most are pairs.)
+/// A table does not change when its azimuths start elsewhere or are fewer.
 #[test]
 fn the_azimuth_grid_does_not_matter() {
     for (orders, bound) in
-        [("[0, 1, 2]", 2e-3), ("[0, 1, 2, 3]", 5e-3), ("[0, 1, 2, 3, 4, 5, 6, 7]", 5e-3)]
+        [("[0, 1, 2]", 2e-3), ("[0, 1, 2, 3]", 2e-3), ("[0, 1, 2, 3, 4, 5, 6, 7]", 5e-3)]
     {
         let table = |azimuths: &str| {
             slab(&scene(&format!(

@@ -15,13 +15,15 @@ use super::rim::wave_knot;
 use super::rim_rays::{Prefactor, Rays, TUNNEL};
 use super::segment::{Kind, Segment};
 use super::taper::Taper;
+use crate::trace::Tracer;
 use std::f64::consts::TAU;
 
 /// Squared cosine outside below which the coefficients of reflection run too fast for a series.
 const NEAR_CRITICAL: f64 = 0.02;
 const BELOW_ENTRY: f64 = 0.5;
-/// The last order that is served: the bows of higher ones are made too near the rim.
-const LAST_ORDER: usize = 3;
+/// The order that is served: order 2 meets total reflection far from its bow, and the bows of higher ones
+/// are made too near the rim.
+const ORDER: u32 = 3;
 /// Fresnel zones of a ray within the taper, and the share of the launch points before it.
 const FRESNEL_ZONES: f64 = 12.0;
 const MOST_ROOM: f64 = 0.9;
@@ -41,12 +43,16 @@ const INNER_SHARE: f64 = 0.6;
 const KNOTS_PER_PERIOD: f64 = 8.0;
 const KNOTS_PER_UNIT: f64 = 2.0;
 
+/// Whether an order of a particle may need the integral at all.
+pub(super) fn serves(tracer: &Tracer, order: u32) -> bool {
+    order == ORDER && !tracer.shape().rotational_symmetry()
+}
+
 /// Whether a ray meets the surface inside near or beyond the critical angle, other than by being near
 /// the rim.
 pub(super) fn meets_total_reflection(arc: &Arc, ray: &Node) -> bool {
     let meridian = arc.meridian();
-    let order = meridian.order as usize;
-    if !(2..=LAST_ORDER).contains(&order) || meridian.tracer.shape().rotational_symmetry() {
+    if !serves(meridian.tracer, meridian.order) {
         return false;
     }
     let mut meetings = Vec::new();
@@ -54,7 +60,7 @@ pub(super) fn meets_total_reflection(arc: &Arc, ray: &Node) -> bool {
     meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings);
     let Some(entry) = meetings.first() else { return false };
     let critical = NEAR_CRITICAL.min(BELOW_ENTRY * entry.cos_squared_outside);
-    meetings.iter().take(order).skip(1).any(|m| m.cos_squared_outside < critical)
+    meetings.iter().take(meridian.order as usize).skip(1).any(|m| m.cos_squared_outside < critical)
 }
 
 /// The stretch of launch points about a fold along which impacts serve as coordinates.

@@ -9,6 +9,7 @@ use super::meridian::{Meridian, Node, axial_ray};
 use super::segment::{Kind, Knot, Segment};
 use crate::trace::Tracer;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Largest argument of the Airy functions on the lit side: there the two rays are well apart.
 const LIT_ZETA: f64 = 24.0;
@@ -22,6 +23,9 @@ const LONGEST_DARK: f64 = 0.45;
 /// the argument of its Airy functions that it must reach.
 const CLEARANCE: f64 = 0.9;
 const SHORTEST_ZETA: f64 = 6.0;
+
+/// Meridians over a half-turn that decide whether a fold needs an integral.
+const DECIDING: usize = 9;
 
 /// What is traced of an order.
 pub(super) struct Traced {
@@ -56,14 +60,21 @@ pub(super) fn trace(
     if places.len() - found.len() > most_missing(places.len()) {
         return None;
     }
-    layout.folds = fold_reaches(&found, layout.axis_gap, layout.size_parameter);
+    // others decide on a fold's segment, too, so that few azimuths are treated as many are
+    let deciding = bow_wave::serves(tracer, order) && places.len() < DECIDING;
+    let others: Vec<Option<Arc>> = (0..if deciding { DECIDING } else { 0 })
+        .map(|j| arc(PI * j as f64 / (DECIDING - 1) as f64))
+        .map(|arc| arc.filter(|arc| arc.signature() == signature))
+        .collect();
+    let all: Vec<&Arc> = found.iter().copied().chain(others.iter().flatten()).collect();
+    layout.folds = fold_reaches(&all, layout.axis_gap, layout.size_parameter);
     if let Some(rim) = &mut layout.rim {
         let index = tracer.index().re;
         rim.spread_knots(&found, layout.axis_gap, index, tangle, layout.size_parameter)?;
     }
     let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
     for _ in 0..shrinks {
-        if let Some((meridians, layout)) = cut(&arcs, &layout) {
+        if let Some((meridians, layout)) = cut(&arcs, &others, &layout) {
             let symmetric = tracer.shape().rotational_symmetry();
             let about_axis =
                 if symmetric { found.first()?.axis_waves(&layout) } else { Vec::new() };
@@ -104,19 +115,27 @@ fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<FoldLa
 }
 
 /// All segments of all meridians, with common numbers of knots.
-fn cut(arcs: &[Option<Arc>], layout: &ArcLayout) -> Option<(Vec<Vec<Segment>>, ArcLayout)> {
+fn cut(
+    arcs: &[Option<Arc>],
+    others: &[Option<Arc>],
+    layout: &ArcLayout,
+) -> Option<(Vec<Vec<Segment>>, ArcLayout)> {
     type Ends = Vec<[Node; 2]>;
-    let find_ends = |layout: &ArcLayout| -> Vec<Option<Ends>> {
+    let find_ends = |arcs: &[Option<Arc>], layout: &ArcLayout| -> Vec<Option<Ends>> {
         arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect()
     };
     let mut layout = layout.clone();
-    let mut ends = find_ends(&layout);
+    let mut ends = find_ends(arcs, &layout);
     layout.cut = before_the_ends(ends.iter().flatten().filter_map(|ends| ends.last()));
     if layout.cut.is_some() {
-        ends = find_ends(&layout);
+        ends = find_ends(arcs, &layout);
     }
-    if avoid_total_reflection(arcs, &ends, &mut layout) {
-        ends = find_ends(&layout);
+    let other_ends = find_ends(others, &layout);
+    let all = arcs.iter().chain(others).zip(ends.iter().chain(&other_ends));
+    let deciding: Vec<(&Arc, &Ends)> =
+        all.filter_map(|(arc, ends)| arc.as_ref().zip(ends.as_ref())).collect();
+    if avoid_total_reflection(&deciding, &mut layout) {
+        ends = find_ends(arcs, &layout);
     }
     let plain_count = ends.iter().flatten().next()?.len();
     let pieces = |s: usize| {
@@ -171,13 +190,9 @@ fn before_the_ends<'e>(last: impl Iterator<Item = &'e [Node; 2]> + Clone) -> Opt
 /// Keep folds' segments from rays near total reflection, on all meridians: those that would be left too
 /// short for single rays beyond become integrals, as far as all meridians' impacts serve. Whether
 /// any changed.
-fn avoid_total_reflection(
-    arcs: &[Option<Arc>],
-    ends: &[Option<Vec<[Node; 2]>>],
-    layout: &mut ArcLayout,
-) -> bool {
-    let found = || arcs.iter().zip(ends).filter_map(|(arc, ends)| arc.as_ref().zip(ends.as_ref()));
-    let critical: Vec<Vec<f64>> = found().map(|(arc, ends)| arc.critical_angles(ends)).collect();
+fn avoid_total_reflection(arcs: &[(&Arc, &Vec<[Node; 2]>)], layout: &mut ArcLayout) -> bool {
+    let critical: Vec<Vec<f64>> =
+        arcs.iter().map(|(arc, ends)| arc.critical_angles(ends)).collect();
     let mut changed = false;
     for (f, fold) in layout.folds.iter_mut().enumerate() {
         let nearest = CLEARANCE * critical.iter().map(|arc| arc[f]).fold(f64::INFINITY, f64::min);
@@ -189,8 +204,8 @@ fn avoid_total_reflection(
             fold.lit = nearest;
             continue;
         }
-        let reach = |(arc, _): (&Arc, _)| arc.integral_reach(f, layout.size_parameter);
-        let reaches: Vec<f64> = found().filter_map(reach).collect();
+        let reach = |(arc, _): &(&Arc, _)| arc.integral_reach(f, layout.size_parameter);
+        let reaches: Vec<f64> = arcs.iter().filter_map(reach).collect();
         if reaches.is_empty() {
             continue;
         }

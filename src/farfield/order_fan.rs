@@ -23,12 +23,11 @@ use std::f64::consts::{PI, TAU};
 const HALF_TURN_STEPS: usize = 40;
 const HALF_TURN_STEPS_RIM: usize = 60;
 /// How far meridians may differ from what their neighbours make of them (see [`roughness`]) to be
-/// interpolated over azimuth; else there are some times more, or those asked for are traced one by
-/// one unless they are too many. Interpolation between them has steps half as long and more
-/// neighbours, and errs by a small part of that.
+/// interpolated over azimuth; else there are some times more, and if that does not help those asked for
+/// are traced one by one. Interpolation between them has steps half as long and more neighbours, and
+/// errs by a small part of that.
 const ROUGHEST: f64 = 0.2;
 const FINER: usize = 4;
-const MOST_LISTED: usize = 2000;
 /// The last order that is worth it: higher ones are weak, and their waves have many knots.
 const LAST_CHECKED: u32 = 3;
 /// Neighbours in the interpolation over azimuth.
@@ -70,7 +69,7 @@ impl OrderFan {
     ) -> Option<Self> {
         let azimuths = azimuths(tracer, settings);
         let checked = order <= LAST_CHECKED && matches!(azimuths, Azimuths::Even);
-        let mut found = Self::at(tracer, order, settings, edge, azimuths, 1)?;
+        let found = Self::at(tracer, order, settings, edge, azimuths, 1)?;
         let rough = |found: &Self| roughness(&found.meridians, settings.size_parameter) > ROUGHEST;
         if !checked || !rough(&found) {
             return Some(found);
@@ -78,15 +77,11 @@ impl OrderFan {
         let listed = listed(settings);
         if listed.len() > FINER * found.meridians.len() {
             let finer = Self::at(tracer, order, settings, edge, Azimuths::Even, FINER);
-            found = finer.unwrap_or(found);
-            if !rough(&found) {
+            if let Some(found) = finer.filter(|found| !rough(found)) {
                 return Some(found);
             }
         }
-        if listed.len() > MOST_LISTED {
-            return Some(found);
-        }
-        Self::at(tracer, order, settings, edge, Azimuths::Listed(listed), 1).or(Some(found))
+        Self::at(tracer, order, settings, edge, Azimuths::Listed(listed), 1)
     }
 
     /// With meridians at these azimuths, `finer` times as many as usual where they are even.
