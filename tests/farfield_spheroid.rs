@@ -1,5 +1,8 @@
 //! Spheroids against the T-matrix method: the error of the ray engine must be no larger than 1.3
-//! times its error on the sphere of the same size parameter against Lorenz–Mie, at the same angles.
+//! times its error on a sphere of the same size parameter against Lorenz–Mie, at the same angles. Two
+//! spheres: one that is flattened by 1e-7, for which the program does what it does for any spheroid, so
+//! that the ratio tells what flattening costs; and the sphere itself, whose waves near the rim and about
+//! the axis are integrals that spheroids do not have.
 //!
 //! The table (`tests/data/tmatrix_spheroid_m1333.csv`) holds oblate spheroids of size parameter 20,
 //! 50 and 100 in two planes, with the light horizontal and 30° downwards: the small end of any ray
@@ -121,38 +124,39 @@ fn errors(
 }
 
 /// Known defects: size, flatness, sun elevation, plane, lower end of the band, and the bound that
-/// stands just above what was measured. Orders from 4 on (on the horizontal plane with the light along
-/// a plane of symmetry also order 2) come from patches, whose rays are only bounded at a caustic.
-/// Ratios also rise where the sphere's own error falls: the waves of its rays near the rim and about
-/// the axis (x = 50 and 100: order 4) are integrals that spheroids do not have.
-const DEFECTS: [(f64, f64, f64, &str, f64, f64); 26] = [
+/// stands just above what was measured, to the sphere that is flattened by 1e-7. None over all angles or
+/// in the forward peak. Orders from 4 on (on the horizontal plane with the light along a plane of
+/// symmetry also order 2) come from patches, whose rays are only bounded at a caustic.
+const DEFECTS: [(f64, f64, f64, &str, f64, f64); 18] = [
     (20.0, 1.1, 0.0, "horizontal", 160.0, 1.46),
     (50.0, 1.05, 0.0, "horizontal", 10.0, 2.05),
     (50.0, 1.05, 0.0, "vertical", 100.0, 2.16),
-    (50.0, 1.05, 30.0, "horizontal", 0.0, 1.5),
     (50.0, 1.05, 30.0, "horizontal", 10.0, 2.92),
     (50.0, 1.05, 30.0, "horizontal", 100.0, 2.14),
-    (50.0, 1.05, 30.0, "vertical", 0.0, 1.5),
     (50.0, 1.05, 30.0, "vertical", 10.0, 1.75),
     (50.0, 1.05, 30.0, "vertical", 100.0, 2.36),
-    (100.0, 1.02, 0.0, "horizontal", 10.0, 2.5),
     (100.0, 1.02, 0.0, "horizontal", 100.0, 1.53),
-    (100.0, 1.02, 0.0, "vertical", 10.0, 3.95),
-    (100.0, 1.02, 0.0, "vertical", 100.0, 1.9),
-    (100.0, 1.02, 30.0, "horizontal", 10.0, 4.65),
+    (100.0, 1.02, 0.0, "vertical", 100.0, 1.75),
+    (100.0, 1.02, 30.0, "horizontal", 10.0, 1.44),
     (100.0, 1.02, 30.0, "horizontal", 100.0, 2.20),
-    (100.0, 1.02, 30.0, "vertical", 10.0, 4.05),
     (100.0, 1.02, 30.0, "vertical", 100.0, 1.70),
-    (100.0, 1.1, 0.0, "horizontal", 10.0, 5.65),
+    (100.0, 1.1, 0.0, "horizontal", 10.0, 1.75),
     (100.0, 1.1, 0.0, "horizontal", 100.0, 10.41),
     (100.0, 1.1, 0.0, "horizontal", 160.0, 2.99),
-    (100.0, 1.1, 0.0, "vertical", 10.0, 1.9),
     (100.0, 1.1, 0.0, "vertical", 100.0, 1.97),
-    (100.0, 1.1, 30.0, "horizontal", 10.0, 3.3),
     (100.0, 1.1, 30.0, "horizontal", 100.0, 2.55),
-    (100.0, 1.1, 30.0, "vertical", 10.0, 2.1),
     (100.0, 1.1, 30.0, "vertical", 100.0, 3.04),
 ];
+
+/// The same over all angles, to the sphere itself: size, flatness, sun elevation, bound.
+const BEHIND_THE_SPHERE: [(f64, f64, f64, f64); 1] = [(50.0, 1.05, 30.0, 1.5)];
+
+/// The ratio to the sphere itself allowed over all angles.
+fn bound_to_sphere(row: &Row) -> f64 {
+    let sun = row.sun_elevation.to_degrees().round();
+    let known = |d: &&(f64, f64, f64, f64)| (d.0, d.1, d.2) == (row.x, row.flatness, sun);
+    BEHIND_THE_SPHERE.iter().find(known).map_or(FACTOR, |d| d.3)
+}
 
 /// The ratio allowed in a band.
 fn bound(row: &Row, from: f64) -> f64 {
@@ -175,7 +179,10 @@ fn spheroids_are_as_good_as_spheres() {
         (a.x, a.flatness, a.sun_elevation) == (b.x, b.flatness, b.sun_elevation)
             && a.plane == b.plane
     };
-    println!("x | q | sun | plane | band | S11: spheroid, sphere, ratio | amplitude: the same");
+    println!(
+        "x | q | sun | plane | band | S11: spheroid, nearly a sphere, ratio | amplitude: \
+         the same | S11: sphere, ratio"
+    );
     let mut worse = Vec::new();
     for group in all.chunk_by(same) {
         let first = &group[0];
@@ -187,19 +194,22 @@ fn spheroids_are_as_good_as_spheres() {
         let shape = Shape::spheroid(1.0 / first.flatness, first.sun_elevation).unwrap();
         let found = rays(shape, first.x, &directions);
         let theta: Vec<f64> = directions.iter().map(|d| d.0).collect();
-        let sphere = Sphere::new(first.x, Complex64::new(INDEX, 0.0)).unwrap();
-        let mie: Vec<AmplitudeMatrix> = sphere
+        let series = Sphere::new(first.x, Complex64::new(INDEX, 0.0)).unwrap();
+        let mie: Vec<AmplitudeMatrix> = series
             .amplitudes(&theta)
             .iter()
             .map(|&(s1, s2)| AmplitudeMatrix { s1, s2, ..Default::default() })
             .collect();
-        let ball = rays(Shape::sphere(), first.x, &directions);
+        let ball = rays(Shape::spheroid(1.0 - 1e-7, 0.5).unwrap(), first.x, &directions);
+        let sphere = rays(Shape::sphere(), first.x, &directions);
         for (from, to) in BANDS {
             let inside = |i: usize| (from..=to).contains(&theta[i].to_degrees().round());
             let [e, a] = errors(&found, &exact, inside);
             let [e0, a0] = errors(&ball, &mie, inside);
+            let [best, _] = errors(&sphere, &mie, inside);
             println!(
-                "{} | {} | {:.0}° | {} | {from}–{to} | {:.1} %, {:.1} %, {:.2} | {:.1} %, {:.1} %, {:.2}",
+                "{} | {} | {:.0}° | {} | {from}–{to} | {:.1} %, {:.1} %, {:.2} | {:.1} %, {:.1} %, {:.2} \
+                 | {:.1} %, {:.2}",
                 first.x,
                 first.flatness,
                 first.sun_elevation.to_degrees(),
@@ -209,8 +219,13 @@ fn spheroids_are_as_good_as_spheres() {
                 e / e0,
                 100.0 * a,
                 100.0 * a0,
-                a / a0
+                a / a0,
+                100.0 * best,
+                e / best
             );
+            if (from, to) == (0.0, 180.0) && e > bound_to_sphere(first) * best {
+                worse.push((first.x, first.flatness, first.plane.clone(), from, to, e / best));
+            }
             if e > bound(first, from) * e0 {
                 worse.push((first.x, first.flatness, first.plane.clone(), from, to, e / e0));
             }

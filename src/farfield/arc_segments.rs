@@ -68,9 +68,11 @@ impl Arc<'_> {
         count: usize,
         layout: &ArcLayout,
     ) -> Option<Segment> {
+        // about the axis of other particles rays are few and far from those of a sphere
+        let symmetric = self.meridian.tracer.shape().rotational_symmetry();
         let closer = [
-            matches!(start, Landmark::Axis(_)),
-            matches!(end, Landmark::End(_) | Landmark::Axis(_)),
+            symmetric && matches!(start, Landmark::Axis(_)),
+            matches!(end, Landmark::End(_)) || symmetric && matches!(end, Landmark::Axis(_)),
         ];
         let mut knots = Vec::with_capacity(count + 1);
         let mut focal_lines = a.exit.focal_lines;
