@@ -1,8 +1,8 @@
 //! The main path on one page: plan, trace, collect, interfere, diffract, tabulate.
 //!
-//! Wavelength by wavelength: the wavefront is traced into sheets of rays, the sheets are spread over
-//! the far field, every azimuth of the table becomes a column of amplitudes, and the columns become
-//! a [`Slab`], which is handed on before the next wavelength is computed.
+//! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (meridians, beams, or
+//! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
+//! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
 use crate::farfield::fan::FanSettings;
 use crate::farfield::patch;

@@ -1,6 +1,6 @@
 //! How all meridians of an order are cut: the same landmarks, the same fractions.
 
-use super::rim::RimLayout;
+use super::rim_layout::RimLayout;
 use super::taper::Taper;
 
 /// Settings shared by all meridians of an order, so that their segments correspond.

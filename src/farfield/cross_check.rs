@@ -5,16 +5,19 @@
 //! such particles both are computed at some directions, and an order that differs grossly is left to
 //! the beams.
 
-use super::fan::Fan;
+use super::fan::{Fan, FanSettings};
 use super::gaussian_beams::GaussianBeams;
+use super::tangled::with_beams;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
 /// Orders worth a check: higher ones are weak. Order 0 has its own wave at the edge.
 const ORDERS: std::ops::RangeInclusive<u32> = 1..=3;
-/// Order times deformation from which on it is made.
-const TANGLED: f64 = 0.06;
+/// Order times deformation, and size parameter, from which on it is made: the one for a reason, the
+/// other so that beams are fine enough to tell.
+const DEFORMED: f64 = 0.06;
+const LEAST_SIZE: f64 = 6000.0;
 /// Azimuths, scattering angles in each and in each band.
 const AZIMUTHS: usize = 9;
 const SAMPLES: usize = 640;
@@ -25,19 +28,23 @@ const GROSS: f64 = 0.6;
 const FAINT: f64 = 0.05;
 
 /// Regular orders whose waves differ from those of beams by more than beams may err.
-pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, size_parameter: f64) -> Vec<u32> {
+pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings) -> Vec<u32> {
+    let x = settings.size_parameter;
+    if !settings.checked || x < LEAST_SIZE || !with_beams(settings) {
+        return Vec::new();
+    }
     let theta: Vec<f64> =
         (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
     let doubtful = |order: &u32| {
         let azimuths = fan.some_azimuths(*order, AZIMUTHS);
-        let beams = GaussianBeams::new(tracer, &[*order], &azimuths, size_parameter);
+        let beams = GaussianBeams::new(tracer, &[*order], &azimuths, x);
         azimuths.into_iter().any(|phi| {
             let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
             beams.add(&theta, phi, &mut waves);
             differs(&fan.columns_of(*order, &theta, phi), &waves)
         })
     };
-    fan.regular_orders(TANGLED, tracer)
+    fan.regular_orders(DEFORMED, tracer)
         .into_iter()
         .filter(|order| ORDERS.contains(order))
         .filter(doubtful)

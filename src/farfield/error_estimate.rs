@@ -6,7 +6,9 @@
 //! out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their phase.
 
 use super::fan::Fan;
-use super::{FarField, Source, Tangled};
+use super::tangled::Tangled;
+use super::{FarField, Source};
+use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
@@ -41,8 +43,10 @@ impl FarField<'_> {
         let place = |k: usize| FROM + (TO - FROM) * (k as f64 * 0.618_033_988_749_895).fract();
         let mut theta: Vec<f64> = (0..SAMPLES).map(place).collect();
         theta.sort_by(f64::total_cmp);
-        let (azimuth, missed) = fan.missed(tracer, &theta);
-        let column = self.columns(&theta, &[azimuth], false).swap_remove(0);
+        let azimuth = fan.checked_azimuth;
+        let missed = fan.missed(tracer, &theta, azimuth);
+        let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
+        tangled.add(&theta, azimuth, &mut waves);
         let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
         let left_out = inside * self.silhouette.area() * x * x / (4.0 * PI);
         // the lowest order is the strongest
@@ -51,7 +55,7 @@ impl FarField<'_> {
             Tangled::Beams(_) => BEAMS * f64::from(lowest),
             _ => PATCHES,
         };
-        let of_tangled = |i: usize| share * share * (column.amplitude[i] - rays[i]).s11();
+        let of_tangled = |i: usize| share * share * waves[i].s11();
         let next_terms = x.powf(-4.0 / 3.0);
         let (mut squares, mut intensities, mut relative) = (0.0, 0.0, 0.0);
         for band in 0..BANDS {
@@ -59,7 +63,7 @@ impl FarField<'_> {
             let (mut wrong, mut all) = (0.0, 0.0);
             for i in samples {
                 wrong += missed[i] + left_out + of_tangled(i);
-                all += column.amplitude[i].s11();
+                all += (rays[i] + waves[i]).s11();
             }
             let square = (2.0 * wrong / all).min(1.0) + next_terms;
             relative += square;
@@ -73,14 +77,13 @@ impl FarField<'_> {
 
 impl Fan {
     /// `S11` of what interpolation adds or misses, at some scattering angles of an azimuth.
-    fn missed(&self, tracer: &Tracer, theta: &[f64]) -> (f64, Vec<f64>) {
-        let azimuth = self.between();
+    fn missed(&self, tracer: &Tracer, theta: &[f64], azimuth: f64) -> Vec<f64> {
         let mut missed = vec![0.0; theta.len()];
         for [fan, traced] in self.checks(tracer, theta, azimuth) {
             for (sum, (a, b)) in missed.iter_mut().zip(fan.into_iter().zip(traced)) {
                 *sum += (a - b).s11();
             }
         }
-        (azimuth, missed)
+        missed
     }
 }

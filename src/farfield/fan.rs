@@ -21,6 +21,8 @@ pub struct Fan {
     size_parameter: f64,
     orders: Vec<OrderFan>,
     edge: Option<EdgeWave>,
+    /// The azimuth asked for that is about as far as can be from those traced.
+    pub(super) checked_azimuth: f64,
     /// Orders that this method does not represent.
     pub irregular: Vec<u32>,
 }
@@ -59,7 +61,11 @@ impl Fan {
         let irregular: Vec<u32> = fans.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
         let orders = fans.into_iter().filter_map(|f| f.1).collect();
         let edge = edge.filter(|_| !irregular.contains(&0));
-        Self { size_parameter: settings.size_parameter, orders, edge, irregular }
+        let off = |azimuth: &f64| (azimuth - CHECKED_AZIMUTH).abs();
+        let nearest = settings.azimuths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let checked_azimuth = nearest.copied().unwrap_or(CHECKED_AZIMUTH);
+        let size_parameter = settings.size_parameter;
+        Self { size_parameter, orders, edge, checked_azimuth, irregular }
     }
 
     /// The edge wave, if diffraction and order 0 are joined.
@@ -139,16 +145,6 @@ impl Fan {
             columns.iter_mut().for_each(|column| wave.add(theta, column));
         }
         columns
-    }
-
-    /// An azimuth at which all orders can be asked for, as far as can be from those traced.
-    pub(super) fn between(&self) -> f64 {
-        let off = |azimuth: &f64| (azimuth - CHECKED_AZIMUTH).abs();
-        let listed = self.orders.iter().find_map(|fan| match &fan.azimuths {
-            Azimuths::Listed(list) => list.iter().min_by(|a, b| off(a).total_cmp(&off(b))).copied(),
-            _ => None,
-        });
-        listed.unwrap_or(CHECKED_AZIMUTH)
     }
 
     /// For every order, amplitudes of its rays on the near side of an azimuth's plane: interpolated,

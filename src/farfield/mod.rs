@@ -13,6 +13,7 @@ mod arc_layout;
 mod arc_search;
 mod arc_segments;
 mod axis_wave;
+mod beam;
 mod beam_launch;
 mod bow_wave;
 pub mod collecting_sphere;
@@ -37,11 +38,13 @@ mod order_fan;
 pub mod patch;
 pub mod rim;
 mod rim_integrand;
+mod rim_layout;
 mod rim_rays;
 mod roughness;
 pub mod segment;
 pub mod sweep;
 pub mod tabulate;
+mod tangled;
 mod taper;
 
 pub use collecting_sphere::CollectingSphere;
@@ -50,14 +53,14 @@ pub use error_estimate::ErrorEstimate;
 
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
-use crate::trace::{Tracer, Wavefront};
+use crate::trace::Tracer;
 use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
 use forward_wave::ForwardWave;
-use gaussian_beams::GaussianBeams;
 use interference::{Interference, PathInterpolation};
 use std::f64::consts::{PI, TAU};
 use tabulate::Column;
+use tangled::Tangled;
 
 /// The far field of one wavelength, ready to be asked for columns or single directions.
 pub struct FarField<'a> {
@@ -71,69 +74,7 @@ pub struct FarField<'a> {
 enum Source {
     Patches(CollectingSphere, Interference),
     /// Meridians, and something else for the orders whose meridians do not correspond.
-    Meridians(Fan, Tangled),
-}
-
-/// How the waves of tangled orders are found: by beams, whose error falls like `1/√x`; by patches for
-/// particles so small that those do better.
-enum Tangled {
-    None,
-    Beams(GaussianBeams),
-    Patches(CollectingSphere, Interference),
-}
-
-/// Size parameter from which on tangled orders are sums of beams, and the tolerance up to which they are
-/// worth their time: ten times that of patches where few directions are asked for.
-const FIRST_OF_BEAMS: f64 = 1000.0;
-const COARSEST_OF_BEAMS: f64 = 0.03;
-/// Size parameter from which on they are a measure of meridians, too.
-const FIRST_CHECKED: f64 = 6000.0;
-/// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`: patches may not exceed it.
-const FOLD_JACOBIAN: f64 = 0.5;
-/// Rings of the patch grid for tangled orders at a tolerance of 1 %.
-const PATCH_RINGS: f64 = 90.0;
-
-/// Whether beams serve.
-fn with_beams(settings: &FanSettings) -> bool {
-    settings.size_parameter >= FIRST_OF_BEAMS && settings.tolerance <= COARSEST_OF_BEAMS
-}
-
-impl Tangled {
-    fn new(tracer: &Tracer, orders: &[u32], settings: &FanSettings) -> Self {
-        let size_parameter = settings.size_parameter;
-        if orders.is_empty() {
-            return Self::None;
-        }
-        if with_beams(settings) {
-            return Self::Beams(GaussianBeams::new(
-                tracer,
-                orders,
-                settings.azimuths,
-                size_parameter,
-            ));
-        }
-        let rings = (PATCH_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
-        let wavefront =
-            Wavefront::corners(tracer.shape(), rings as usize, 2 * rings as usize, 0.0123);
-        let interpolation = PathInterpolation::Gradient;
-        let largest_jacobian = FOLD_JACOBIAN * size_parameter.cbrt();
-        let interference = Interference { size_parameter, interpolation, largest_jacobian };
-        let sheets = patch::sheets(tracer, &wavefront, orders);
-        Self::Patches(CollectingSphere::new(sheets), interference)
-    }
-
-    /// Add the waves in some directions of one azimuth, scattering angles ascending.
-    fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
-        match self {
-            Self::None => {}
-            Self::Beams(beams) => beams.add(theta, phi, sums),
-            Self::Patches(sphere, interference) => {
-                for (sum, &t) in sums.iter_mut().zip(theta) {
-                    *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
-                }
-            }
-        }
-    }
+    Meridians(Box<Fan>, Tangled),
 }
 
 impl<'a> FarField<'a> {
@@ -154,15 +95,12 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let mut fan = Fan::new(tracer, settings, &silhouette);
-        let checked = settings.checked && settings.size_parameter >= FIRST_CHECKED;
-        if checked && with_beams(settings) {
-            for order in cross_check::doubtful_orders(&fan, tracer, settings.size_parameter) {
-                fan.give_up(order);
-            }
+        for order in cross_check::doubtful_orders(&fan, tracer, settings) {
+            fan.give_up(order);
         }
         let tangled = Tangled::new(tracer, &fan.irregular, settings);
         Self {
-            source: Source::Meridians(fan, tangled),
+            source: Source::Meridians(Box::new(fan), tangled),
             silhouette,
             size_parameter: settings.size_parameter,
             _shape: tracer.shape(),

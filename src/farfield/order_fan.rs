@@ -6,7 +6,7 @@ use super::corresponding::{Traced, trace};
 use super::edge::EdgeWave;
 use super::fan::FanSettings;
 use super::meridian::axial_ray;
-use super::rim::{self, RimLayout};
+use super::rim_layout::{self, RimLayout};
 use super::roughness::roughness;
 use super::segment::{CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment};
 use super::sweep::Side;
@@ -264,7 +264,7 @@ fn rim_layout(
     axis_gap: f64,
 ) -> Option<RimLayout> {
     let rotational = tracer.shape().rotational_symmetry();
-    let marks = rim::taper(tracer.index().re, order, x, tangle, axis_gap, rotational)?;
+    let marks = rim_layout::taper(tracer.index().re, order, x, tangle, axis_gap, rotational)?;
     Some(RimLayout::new(marks, rotational))
 }
 

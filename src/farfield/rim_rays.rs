@@ -6,7 +6,6 @@
 
 use super::arc::Arc;
 use super::meridian::Node;
-use super::rim::RimLayout;
 use super::rim_integrand::Integrand;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::vec3::Vec3;
@@ -90,12 +89,6 @@ impl Rays {
         let ((path, path_rate), (impact, rate)) = (self.at(PATH, sin), self.at(IMPACT, sin));
         let angle = path_rate / rate;
         Anchor { angle, impact, path: path - impact * angle }
-    }
-
-    /// Trace real rays from the start of the taper to the last that leaves.
-    pub(super) fn to_rim(arc: &Arc, layout: &RimLayout) -> Option<Self> {
-        let to = arc.last_ray().alpha.sin() - layout.spare * (1.0 - layout.start);
-        Self::between(arc, [layout.start, to], layout.degree)
     }
 
     /// Trace real rays between two launch points.
