@@ -4,11 +4,11 @@
 use gonio::farfield::fan::FanSettings;
 use gonio::farfield::gaussian_beams::GaussianBeams;
 use gonio::farfield::huygens_fresnel::HuygensFresnel;
-use gonio::farfield::{Direction, FarField};
+use gonio::farfield::{Direction, FarField, patch};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};
-use gonio::trace::Tracer;
+use gonio::trace::{Tracer, Wavefront};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
@@ -110,4 +110,31 @@ fn doubtful_meridians_are_left_to_beams() {
     };
     assert_eq!(irregular(0.5e-3), Vec::<u32>::new());
     assert_eq!(irregular(2e-3), [1]);
+}
+
+/// External reflection is strongest at the rim, where launch points end: as beams it was wrong by more
+/// than itself. Where its meridians are tangled, plain rays serve.
+#[test]
+fn tangled_reflection_is_that_of_plain_rays() {
+    let x = TAU * 3e-3 / 650e-9;
+    let shape = Shape::raindrop(3e-3, RaindropModel::BeardChuang1987, 20f64.to_radians()).unwrap();
+    let tracer = Tracer::new(&shape, Complex64::new(1.3314, 0.0), x, 0).with_curved_interface(x);
+    let phi = 0.7;
+    let settings = FanSettings {
+        size_parameter: x,
+        orders: &[0],
+        tolerance: 0.01,
+        diffraction: false,
+        checked: true,
+        azimuths: &[phi],
+    };
+    let tangled = FarField::meridians(&tracer, &settings);
+    assert_eq!(tangled.irregular(), [0]);
+    let wavefront = Wavefront::corners(&shape, 300, 600, 0.01);
+    let plain = FarField::patches(&shape, patch::sheets(&tracer, &wavefront, &[0]), x);
+    let directions: Vec<(f64, f64)> =
+        angles(30.0, 150.0, 240).into_iter().map(|theta| (theta, phi)).collect();
+    let error = error(&tangled.scatter(&directions, false), &plain.scatter(&directions, false));
+    println!("3 mm, order 0: {:.2} %", 1e2 * error);
+    assert!(error < 0.1, "{error}");
 }

@@ -1,14 +1,13 @@
 //! How far a far field may be from the truth, as the method itself can tell.
 //!
-//! Three things are known: what interpolation costs, by tracing meridians half-way between those of
-//! the fan and with twice the knots; the power that is still inside after the last order; and the
-//! next terms of the uniform formulas, of the order of `x^{-2/3}` (a wave zone). Waves that are left
-//! out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their phase.
+//! Four things are known: what interpolation costs, by tracing meridians half-way between those of the
+//! fan and with twice the knots; the power that is still inside after the last order; how far beams and
+//! patches are from exact series; and the next terms of the uniform formulas, of the order of `x^{-2/3}`
+//! (a wave zone). Waves that are left out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on
+//! average over their phase.
 
 use super::fan::Fan;
-use super::tangled::Tangled;
 use super::{FarField, Source};
-use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
@@ -19,10 +18,6 @@ const BANDS: usize = 40;
 /// The angles looked at, radians: without the forward peak and its mirror image.
 const FROM: f64 = PI / 18.0;
 const TO: f64 = PI - FROM;
-/// Share of its amplitude by which a wave of order 1 may be wrong that is a sum of Gaussian beams; for
-/// higher orders so many times that. The same for any order by patches. (Measured against Debye terms.)
-const BEAMS: f64 = 0.02;
-const PATCHES: f64 = 0.3;
 
 /// Relative errors of the intensity from 10° to 170°.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,24 +40,16 @@ impl FarField<'_> {
         theta.sort_by(f64::total_cmp);
         let azimuth = fan.checked_azimuth;
         let missed = fan.missed(tracer, &theta, azimuth);
-        let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
-        tangled.add(&theta, azimuth, &mut waves);
+        let (waves, doubted) = tangled.doubted(&theta, azimuth);
         let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
         let left_out = inside * self.silhouette.area() * x * x / (4.0 * PI);
-        // the lowest order is the strongest
-        let lowest = fan.irregular.first().copied().unwrap_or(0);
-        let share = match tangled {
-            Tangled::Beams(_) => BEAMS * f64::from(lowest),
-            _ => PATCHES,
-        };
-        let of_tangled = |i: usize| share * share * waves[i].s11();
         let next_terms = x.powf(-4.0 / 3.0);
         let (mut squares, mut intensities, mut relative) = (0.0, 0.0, 0.0);
         for band in 0..BANDS {
             let samples = band * SAMPLES / BANDS..(band + 1) * SAMPLES / BANDS;
             let (mut wrong, mut all) = (0.0, 0.0);
             for i in samples {
-                wrong += missed[i] + left_out + of_tangled(i);
+                wrong += missed[i] + left_out + doubted[i];
                 all += (rays[i] + waves[i]).s11();
             }
             let square = (2.0 * wrong / all).min(1.0) + next_terms;
