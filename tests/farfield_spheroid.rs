@@ -1,8 +1,7 @@
 //! Spheroids against the T-matrix method: the error of the ray engine must be no larger than 1.3
-//! times its error on a sphere of the same size parameter against Lorenz–Mie, at the same angles. Two
-//! spheres: one that is flattened by 1e-7, for which the program does what it does for any spheroid, so
-//! that the ratio tells what flattening costs; and the sphere itself, whose waves near the rim and about
-//! the axis are integrals that spheroids do not have.
+//! times its error on the sphere of the same size parameter against Lorenz–Mie, at the same angles.
+//! Printed beside: a sphere flattened by 1e-7, for which the program does what it does for any
+//! spheroid, so that one sees what flattening costs.
 //!
 //! The table (`tests/data/tmatrix_spheroid_m1333.csv`) holds oblate spheroids of size parameter 20,
 //! 50 and 100 in two planes, with the light horizontal and 30° downwards: the small end of any ray
@@ -124,39 +123,20 @@ fn errors(
 }
 
 /// Known defects: size, flatness, sun elevation, plane, lower end of the band, and the bound that
-/// stands just above what was measured, to the sphere that is flattened by 1e-7. None over all angles or
-/// in the forward peak. Orders from 4 on (on the horizontal plane with the light along a plane of
-/// symmetry also order 2) come from patches, whose rays are only bounded at a caustic.
-const DEFECTS: [(f64, f64, f64, &str, f64, f64); 18] = [
-    (20.0, 1.1, 0.0, "horizontal", 160.0, 1.46),
-    (50.0, 1.05, 0.0, "horizontal", 10.0, 2.05),
-    (50.0, 1.05, 0.0, "vertical", 100.0, 2.16),
-    (50.0, 1.05, 30.0, "horizontal", 10.0, 2.92),
-    (50.0, 1.05, 30.0, "horizontal", 100.0, 2.14),
-    (50.0, 1.05, 30.0, "vertical", 10.0, 1.75),
-    (50.0, 1.05, 30.0, "vertical", 100.0, 2.36),
-    (100.0, 1.02, 0.0, "horizontal", 100.0, 1.53),
-    (100.0, 1.02, 0.0, "vertical", 100.0, 1.75),
-    (100.0, 1.02, 30.0, "horizontal", 10.0, 1.44),
-    (100.0, 1.02, 30.0, "horizontal", 100.0, 2.20),
-    (100.0, 1.02, 30.0, "vertical", 100.0, 1.70),
-    (100.0, 1.1, 0.0, "horizontal", 10.0, 1.75),
-    (100.0, 1.1, 0.0, "horizontal", 100.0, 10.41),
-    (100.0, 1.1, 0.0, "horizontal", 160.0, 2.99),
-    (100.0, 1.1, 0.0, "vertical", 100.0, 1.97),
-    (100.0, 1.1, 30.0, "horizontal", 100.0, 2.55),
-    (100.0, 1.1, 30.0, "vertical", 100.0, 3.04),
+/// stands just above what was measured. None over all angles or in the forward peak. Waves of deformed
+/// particles that tunnel beyond the rim are continued from rays before it.
+const DEFECTS: [(f64, f64, f64, &str, f64, f64); 10] = [
+    (100.0, 1.02, 0.0, "horizontal", 10.0, 2.48),
+    (100.0, 1.02, 0.0, "horizontal", 100.0, 1.50),
+    (100.0, 1.02, 0.0, "vertical", 10.0, 1.93),
+    (100.0, 1.02, 30.0, "vertical", 10.0, 2.00),
+    (100.0, 1.1, 0.0, "horizontal", 10.0, 5.70),
+    (100.0, 1.1, 0.0, "vertical", 10.0, 1.38),
+    (100.0, 1.1, 0.0, "vertical", 100.0, 1.60),
+    (100.0, 1.1, 30.0, "horizontal", 10.0, 3.23),
+    (100.0, 1.1, 30.0, "vertical", 10.0, 2.03),
+    (100.0, 1.1, 30.0, "vertical", 100.0, 1.97),
 ];
-
-/// The same over all angles, to the sphere itself: size, flatness, sun elevation, bound.
-const BEHIND_THE_SPHERE: [(f64, f64, f64, f64); 1] = [(50.0, 1.05, 30.0, 1.5)];
-
-/// The ratio to the sphere itself allowed over all angles.
-fn bound_to_sphere(row: &Row) -> f64 {
-    let sun = row.sun_elevation.to_degrees().round();
-    let known = |d: &&(f64, f64, f64, f64)| (d.0, d.1, d.2) == (row.x, row.flatness, sun);
-    BEHIND_THE_SPHERE.iter().find(known).map_or(FACTOR, |d| d.3)
-}
 
 /// The ratio allowed in a band.
 fn bound(row: &Row, from: f64) -> f64 {
@@ -223,11 +203,8 @@ fn spheroids_are_as_good_as_spheres() {
                 100.0 * best,
                 e / best
             );
-            if (from, to) == (0.0, 180.0) && e > bound_to_sphere(first) * best {
+            if e > bound(first, from) * best {
                 worse.push((first.x, first.flatness, first.plane.clone(), from, to, e / best));
-            }
-            if e > bound(first, from) * e0 {
-                worse.push((first.x, first.flatness, first.plane.clone(), from, to, e / e0));
             }
         }
     }

@@ -3,7 +3,8 @@
 //! Two ways lead there. The main one follows, for each order, the rays that leave in one plane (a
 //! [`meridian`]), cuts them at their landmarks ([`arc`]) into [`segment`]s with the uniform formulas of
 //! [`fold`], [`rim`] and [`edge`], interpolates them over azimuth (a [`fan`]) and adds them up in a
-//! [`sweep`] over the samples; orders too tangled for that are sums of [`gaussian_beams`]. The other,
+//! [`sweep`] over the samples; orders too tangled for that are sums of [`gaussian_beams`], and those of
+//! small particles of [`partial_waves`]. The other,
 //! that of Sadeghi et al. 2012: sheets of rays cut into [`patch`]es, held in a [`collecting_sphere`];
 //! [`interference`] of all patches that contain a direction; diffraction by the [`gaussian_filter`].
 //! [`forward_wave`] is what goes straight on; [`tabulate`] makes the values of a table.
@@ -33,8 +34,10 @@ pub mod gaussian_beams;
 pub mod gaussian_filter;
 pub mod huygens_fresnel;
 pub mod interference;
+mod launch_line;
 pub mod meridian;
 mod order_fan;
+pub mod partial_waves;
 pub mod patch;
 pub mod rim;
 mod rim_integrand;
@@ -58,6 +61,7 @@ use fan::{Fan, FanSettings};
 use forward_diffraction::ForwardDiffraction;
 use forward_wave::ForwardWave;
 use interference::{Interference, PathInterpolation};
+use partial_waves::PartialWaves;
 use std::f64::consts::{PI, TAU};
 use tabulate::Column;
 use tangled::Tangled;
@@ -94,11 +98,13 @@ impl<'a> FarField<'a> {
     /// Meridians with uniform Airy functions at their folds.
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
-        let mut fan = Fan::new(tracer, settings, &silhouette);
-        for order in cross_check::doubtful_orders(&fan, tracer, settings) {
+        let (waves, orders) = PartialWaves::of_small_particles(tracer, settings);
+        let settings = FanSettings { orders: &orders, ..settings.clone() };
+        let mut fan = Fan::new(tracer, &settings, &silhouette);
+        for order in cross_check::doubtful_orders(&fan, tracer, &settings) {
             fan.give_up(order);
         }
-        let tangled = Tangled::new(tracer, &fan.irregular, settings);
+        let tangled = Tangled::new(tracer, waves, &fan.irregular, &settings);
         Self {
             source: Source::Meridians(Box::new(fan), tangled),
             silhouette,

@@ -104,13 +104,7 @@ impl Rays {
             meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings)?;
             rows.push(row(arc, &node, &meetings)?);
         }
-        // unwrap the turns of frames, which are smooth
-        for k in 1..rows.len() {
-            for hit in 0..=order + 1 {
-                let c = MEETINGS + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
-                rows[k][c] += TAU * ((rows[k - 1][c] - rows[k][c]) / TAU).round();
-            }
-        }
+        unwrap_turns(&mut rows, MEETINGS, order);
         let channels = (0..rows[0].len())
             .map(|c| {
                 let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
@@ -183,32 +177,42 @@ impl Rays {
 
     /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
     fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
-        // fields as (perpendicular, parallel) for incident light of either kind
-        let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
-        for hit in 0..=self.order {
-            let c = MEETINGS + 3 * hit;
-            let (square, _) = self.at(c, sin);
-            let (radius, _) = self.at(c + 1, sin);
-            turn(&mut fields, self.at(c + 2, sin).0);
-            let grazing = Grazing::whole(square, x * radius);
-            let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
-            let f = curved_from_inside(inside, index, &grazing);
-            let through = hit == 0 || hit == self.order;
-            let (perpendicular, parallel) = if through {
-                (f.t_perpendicular, f.t_parallel)
-            } else {
-                (f.r_perpendicular, f.r_parallel)
-            };
-            for field in &mut fields {
-                field[0] *= perpendicular;
-                field[1] *= parallel;
-            }
-        }
-        turn(&mut fields, self.at(MEETINGS + 3 * (self.order + 1), sin).0);
-        let [across, along] = fields;
+        let channel = |c: usize| self.at(MEETINGS + c, sin).0;
+        let [across, along] = transfer(channel, self.order, index, x);
         let all = [across[0], along[1], -across[1], -along[0]];
         all.iter().all(|s| s.is_finite()).then_some(all)
     }
+}
+
+/// Fields `[perpendicular, perpendicular × direction]` of a ray that has left, for incident light of either
+/// kind, from three channels for each meeting (squared cosine outside, radius of curvature, turn of the
+/// frame before it) and the last turn of the frame; with the phases of the waves outside.
+pub(super) fn transfer(
+    channel: impl Fn(usize) -> f64,
+    order: usize,
+    index: Complex64,
+    x: f64,
+) -> [[Complex64; 2]; 2] {
+    let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
+    for hit in 0..=order {
+        let square = channel(3 * hit);
+        turn(&mut fields, channel(3 * hit + 2));
+        let grazing = Grazing::whole(square, x * channel(3 * hit + 1));
+        let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
+        let f = curved_from_inside(inside, index, &grazing);
+        let through = hit == 0 || hit == order;
+        let (perpendicular, parallel) = if through {
+            (f.t_perpendicular, f.t_parallel)
+        } else {
+            (f.r_perpendicular, f.r_parallel)
+        };
+        for field in &mut fields {
+            field[0] *= perpendicular;
+            field[1] *= parallel;
+        }
+    }
+    turn(&mut fields, channel(3 * (order + 1)));
+    fields
 }
 
 /// Turn the frame of fields about the ray.
@@ -228,22 +232,53 @@ fn row(arc: &Arc, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
     let exit = &node.exit;
     let impact = exit.reference.dot(growing);
     let minor = meridian.spread_across(exit, node.angle);
+    let path = exit.path + impact * node.angle + paths_outside(meetings)?;
+    let spreading = node.angle.sin().abs() / minor.abs();
+    let mut row = vec![impact, path, spreading, path_inside(meetings)?];
+    row.extend(channels_of(meetings, across, across, exit.direction));
+    Some(row)
+}
+
+/// The ways of the waves outside from their turning points to the first meeting and from the last.
+pub(super) fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
     let outside = |m: &Meeting| {
         m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
     };
-    let (first, last) = (meetings.first()?, meetings.last()?);
-    let path = exit.path + impact * node.angle + outside(first) + outside(last);
-    let spreading = node.angle.sin().abs() / minor.abs();
-    let mut row = vec![impact, path, spreading, last.path - first.path];
-    // frames are (perpendicular, perpendicular × direction)
-    let mut frame = across;
+    Some(outside(meetings.first()?) + outside(meetings.last()?))
+}
+
+/// The optical path inside.
+pub(super) fn path_inside(meetings: &[Meeting]) -> Option<f64> {
+    Some(meetings.last()?.path - meetings.first()?.path)
+}
+
+/// The channels that [`transfer`] needs, for the first axes of the frames before and behind; frames are
+/// (perpendicular, perpendicular × direction).
+pub(super) fn channels_of(
+    meetings: &[Meeting],
+    before: Vec3<f64>,
+    behind: Vec3<f64>,
+    direction: Vec3<f64>,
+) -> Vec<f64> {
+    let mut channels = Vec::with_capacity(3 * meetings.len() + 1);
+    let mut frame = before;
     for meeting in meetings {
         let angle = frame_turn(frame, meeting.perpendicular, meeting.direction);
-        row.extend([meeting.cos_squared_outside, meeting.radius, angle]);
+        channels.extend([meeting.cos_squared_outside, meeting.radius, angle]);
         frame = meeting.perpendicular;
     }
-    row.push(frame_turn(frame, across, exit.direction));
-    Some(row)
+    channels.push(frame_turn(frame, behind, direction));
+    channels
+}
+
+/// Unwrap the turns of frames, smooth along rows of which the channels of [`transfer`] begin at `first`.
+pub(super) fn unwrap_turns(rows: &mut [Vec<f64>], first: usize, order: usize) {
+    for k in 1..rows.len() {
+        for hit in 0..=order + 1 {
+            let c = first + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
+            rows[k][c] += TAU * ((rows[k - 1][c] - rows[k][c]) / TAU).round();
+        }
+    }
 }
 
 /// Angle by which a frame about a ray must turn for its first axis to become another.

@@ -1,4 +1,5 @@
-//! Orders whose meridians do not correspond: sums of beams, whose error falls like `1/√x`, or patches for
+//! Orders that meridians do not serve: sums of partial waves where the particle is small; else, where
+//! meridians do not correspond, sums of beams, whose error falls like `1/√x`, or patches for
 //! particles so small, or tolerances so coarse, that those do better.
 //!
 //! Order 0 stays with patches: its rays are strongest where launch points end, at the rim, which beams
@@ -9,6 +10,7 @@ use super::direction::Direction;
 use super::fan::FanSettings;
 use super::gaussian_beams::GaussianBeams;
 use super::interference::{Interference, PathInterpolation};
+use super::partial_waves::PartialWaves;
 use super::patch;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::{Tracer, Wavefront};
@@ -24,6 +26,7 @@ struct Part {
 }
 
 enum Method {
+    PartialWaves(PartialWaves),
     Beams(GaussianBeams),
     Patches(CollectingSphere, Interference),
 }
@@ -40,6 +43,8 @@ const PATCH_RINGS: f64 = 90.0;
 const OF_REFLECTION: f64 = 0.07;
 const OF_PATCHES: f64 = 0.3;
 const OF_BEAMS: f64 = 0.02;
+/// Doubt of partial waves times the size parameter.
+const OF_PARTIAL_WAVES: f64 = 2.0;
 
 /// Whether beams serve.
 pub(super) fn with_beams(settings: &FanSettings) -> bool {
@@ -48,9 +53,16 @@ pub(super) fn with_beams(settings: &FanSettings) -> bool {
 
 impl Tangled {
     /// For some orders, ascending.
-    pub(super) fn new(tracer: &Tracer, orders: &[u32], settings: &FanSettings) -> Self {
+    pub(super) fn new(
+        tracer: &Tracer,
+        waves: Option<PartialWaves>,
+        orders: &[u32],
+        settings: &FanSettings,
+    ) -> Self {
         let (reflected, transmitted) = orders.split_at(orders.partition_point(|&order| order == 0));
-        let mut parts = Vec::new();
+        let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
+        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt };
+        let mut parts: Vec<Part> = waves.map(of_waves).into_iter().collect();
         if !reflected.is_empty() {
             let method = patches(tracer, reflected, settings);
             parts.push(Part { method, doubt: OF_REFLECTION });
@@ -93,6 +105,7 @@ impl Tangled {
 impl Part {
     fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
         match &self.method {
+            Method::PartialWaves(waves) => waves.add(theta, phi, sums),
             Method::Beams(beams) => beams.add(theta, phi, sums),
             Method::Patches(sphere, interference) => {
                 for (sum, &t) in sums.iter_mut().zip(theta) {

@@ -14,5 +14,6 @@ pub mod phase;
 pub mod principal_value;
 pub mod riccati_bessel;
 pub mod scalar;
+pub mod spherical_harmonics;
 pub mod spline;
 pub mod vec3;
