@@ -23,8 +23,8 @@ use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Size parameter from which on other methods serve.
-const FIRST_TOO_LARGE: f64 = 1000.0;
+/// Size parameter from which on other methods are quicker, and as good.
+const FIRST_TOO_LARGE: f64 = 600.0;
 /// Azimuths of launch points to look at how far planes are tilted.
 const PROBES: usize = 16;
 /// Samples of the scattering angle per period of the highest partial wave.
@@ -39,8 +39,9 @@ type Fields = [Complex64; 4];
 
 /// The sum over partial waves of some orders.
 pub struct PartialWaves {
-    /// For each sample `(j + ½) π/count` of the scattering angle, fields of `e^{imφ}`, `m` from -most.
+    /// For each sample `(j + ½) π/count` of the scattering angle, fields of `e^{imφ}` for `m` about 0.
     samples: Vec<Vec<Fields>>,
+    /// Largest `m` of all.
     most: usize,
 }
 
@@ -94,6 +95,10 @@ impl PartialWaves {
         let count = ((0.5 * SAMPLES_PER_PERIOD * last as f64).ceil() as usize).max(2 * REACH);
         let sample = |j: usize| {
             let theta = PI * (j as f64 + 0.5) / count as f64;
+            // near the axis those of large m are next to nothing
+            let degree = last as f64;
+            let reach = degree * theta.sin() + 6.0 * degree.cbrt() + 6.0;
+            let most = most.min(reach as usize);
             let mut fields = vec![Fields::default(); 2 * most + 1];
             for m in 0..=most {
                 let (low, high) = fields_of(sums, m, theta);
@@ -117,9 +122,11 @@ impl PartialWaves {
             .iter()
             .map(|fields| {
                 let mut parity = [Fields::default(); 2];
-                for (m, (field, wave)) in fields.iter().zip(&waves).enumerate() {
+                let most = fields.len() / 2;
+                for (m, (field, wave)) in fields.iter().zip(&waves[self.most - most..]).enumerate()
+                {
                     for k in 0..4 {
-                        parity[(m + self.most) % 2][k] += field[k] * wave;
+                        parity[(m + most) % 2][k] += field[k] * wave;
                     }
                 }
                 let [even, odd] = parity;
