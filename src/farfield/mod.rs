@@ -35,6 +35,7 @@ pub mod gaussian_filter;
 pub mod huygens_fresnel;
 pub mod interference;
 mod launch_line;
+mod launch_rays;
 pub mod meridian;
 mod order_fan;
 pub mod partial_waves;

@@ -240,7 +240,7 @@ fn row(arc: &Arc, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
 }
 
 /// The ways of the waves outside from their turning points to the first meeting and from the last.
-pub(super) fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
+fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
     let outside = |m: &Meeting| {
         m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
     };
@@ -248,13 +248,13 @@ pub(super) fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
 }
 
 /// The optical path inside.
-pub(super) fn path_inside(meetings: &[Meeting]) -> Option<f64> {
+fn path_inside(meetings: &[Meeting]) -> Option<f64> {
     Some(meetings.last()?.path - meetings.first()?.path)
 }
 
 /// The channels that [`transfer`] needs, for the first axes of the frames before and behind; frames are
 /// (perpendicular, perpendicular × direction).
-pub(super) fn channels_of(
+fn channels_of(
     meetings: &[Meeting],
     before: Vec3<f64>,
     behind: Vec3<f64>,
@@ -272,7 +272,7 @@ pub(super) fn channels_of(
 }
 
 /// Unwrap the turns of frames, smooth along rows of which the channels of [`transfer`] begin at `first`.
-pub(super) fn unwrap_turns(rows: &mut [Vec<f64>], first: usize, order: usize) {
+fn unwrap_turns(rows: &mut [Vec<f64>], first: usize, order: usize) {
     for k in 1..rows.len() {
         for hit in 0..=order + 1 {
             let c = first + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
