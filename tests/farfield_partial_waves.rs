@@ -3,8 +3,10 @@
 
 use gonio::farfield::partial_waves::PartialWaves;
 use gonio::optics::AmplitudeMatrix;
+use gonio::plan::{Engine, Plan};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::Shape;
+use gonio::simulate;
 use gonio::trace::Tracer;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -40,6 +42,25 @@ fn partial_waves_from_rays_reproduce_debye_terms() {
                 println!("x = {x}, p = {order}: {:.2} %", 1e2 * error);
                 assert!(error < bound, "x = {x}, p = {order}: {error}");
             }
+        }
+    }
+}
+
+/// Shapes far from a sphere: orders whose rays cannot be followed that way are left to others, and all
+/// amplitudes are finite.
+#[test]
+fn strongly_deformed_particles_have_finite_waves() {
+    let index = Complex64::new(1.333, 0.0);
+    for axis_ratio in [0.2, 0.3, 0.6, 1.5, 3.0, 5.0] {
+        for x in [20.0, 200.0] {
+            let shape = Shape::spheroid(axis_ratio, 0.35).unwrap();
+            let orders = (0..=7).collect();
+            let plan = Plan::direct(shape, 1.0, Engine::Meridians, orders, true, 0.01, None);
+            let directions: Vec<(f64, f64)> =
+                (0..=36).map(|k| (PI * f64::from(k) / 36.0, 0.7)).collect();
+            let found = simulate::scatter(&plan, index, x, &directions);
+            assert!(found.iter().all(|s| s.s11().is_finite()), "axis ratio {axis_ratio}, x = {x}");
+            assert!(found[0].s11() > found[18].s11(), "axis ratio {axis_ratio}, x = {x}");
         }
     }
 }

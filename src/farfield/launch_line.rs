@@ -253,7 +253,7 @@ impl LaunchLine {
         (s * ratio, self.index * tau.cos() * ratio + s * slope)
     }
 
-    /// Largest component along the light of the impact'tau moment.
+    /// Largest component along the light of the impact's moment.
     pub(super) fn largest_twist(&self) -> f64 {
         let twist = |k: usize| {
             let tau = self.from + (self.last - self.from) * k as f64 / 19.0;

@@ -57,7 +57,10 @@ pub fn sheets(tracer: &Tracer, wavefront: &Wavefront, orders: &[u32]) -> Vec<She
             let (u, v) = wavefront.vertex(ray);
             let mut found = vec![None; orders.len()];
             tracer.trace(u, v, |exit| {
-                if let Some(slot) = orders.iter().position(|&p| p == exit.order) {
+                // in strongly deformed particles a few rays cannot be followed
+                let followed = (exit.direction.dot(exit.direction) + exit.path).is_finite();
+                let slot = orders.iter().position(|&p| p == exit.order);
+                if let Some(slot) = slot.filter(|_| followed) {
                     found[slot] = Some(Corner::new(&exit, [u, v]));
                 }
             });
