@@ -3,8 +3,8 @@
 //!
 //! `cargo run --release --example huygens_fresnel -- sphere|raindrop|spheroid`
 
-use gonio::farfield::fan::FanSettings;
-use gonio::farfield::huygens_fresnel::{HuygensFresnel, Wave};
+use gonio::farfield::FanSettings;
+use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};

@@ -37,6 +37,8 @@ pub mod trace;
 
 pub mod farfield;
 
+pub mod tabulate;
+
 pub mod simulate;
 
 #[cfg(feature = "hdf5")]

@@ -1,8 +1,8 @@
 //! The brute-force Huygens–Fresnel sum against exact Debye terms of the sphere, and the ray engine
 //! against the sum around the primary bow of a raindrop, where no exact solution exists.
 
-use gonio::farfield::fan::FanSettings;
-use gonio::farfield::huygens_fresnel::{HuygensFresnel, Wave};
+use gonio::farfield::FanSettings;
+use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};

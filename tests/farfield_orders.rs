@@ -1,8 +1,8 @@
 //! The ray engine against exact solutions of the sphere: single orders against Debye terms, the
 //! whole against Lorenz–Mie. Bounds stand just above what was measured.
 
+use gonio::farfield::FanSettings;
 use gonio::farfield::FarField;
-use gonio::farfield::fan::FanSettings;
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;

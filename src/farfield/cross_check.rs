@@ -5,9 +5,10 @@
 //! such particles both are computed at some directions, and an order that differs grossly is left to
 //! the beams.
 
-use super::fan::{Fan, FanSettings};
-use super::gaussian_beams::GaussianBeams;
-use super::tangled::with_beams;
+use crate::farfield::azimuth::plane_set::Fan;
+use crate::farfield::fallback::with_beams;
+use crate::farfield::gaussian_beams::GaussianBeams;
+use crate::farfield::settings::FanSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
@@ -28,7 +29,7 @@ const GROSS: f64 = 0.6;
 const FAINT: f64 = 0.05;
 
 /// Regular orders whose waves differ from those of beams by more than beams may err.
-pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings) -> Vec<u32> {
+pub(crate) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings) -> Vec<u32> {
     let x = settings.size_parameter;
     if !settings.checked || x < LEAST_SIZE || !with_beams(settings) {
         return Vec::new();

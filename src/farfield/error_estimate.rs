@@ -6,8 +6,8 @@
 //! (a wave zone). Waves that are left out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on
 //! average over their phase.
 
-use super::fan::Fan;
-use super::{FarField, Source};
+use super::far_field::{FarField, Source};
+use crate::farfield::azimuth::plane_set::Fan;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ impl FarField<'_> {
         let missed = fan.missed(tracer, &theta, azimuth);
         let (waves, doubted) = tangled.doubted(&theta, azimuth);
         let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
-        let left_out = inside * self.silhouette.area() * x * x / (4.0 * PI);
+        let left_out = inside * self.silhouette().area() * x * x / (4.0 * PI);
         let next_terms = x.powf(-4.0 / 3.0);
         let (mut squares, mut intensities, mut relative) = (0.0, 0.0, 0.0);
         for band in 0..BANDS {
