@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench throughput`; figures are rates, not verdicts.
 
-use gonio::farfield::FanSettings;
+use gonio::farfield::FarFieldSettings;
 use gonio::farfield::patches::sheets;
 use gonio::farfield::{Direction, FarField};
 use gonio::shape::{RaindropModel, Shape};
@@ -67,7 +67,7 @@ fn column_rate(shape: &Shape, index: Complex64, size: f64) {
     let tracer = Tracer::new(shape, index, size, 3).with_curved_interface(size);
     let azimuths: Vec<f64> = (0..=180).map(|i| f64::from(i).to_radians()).collect();
     let orders = [0, 1, 2, 3];
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: size,
         orders: &orders,
         tolerance: 0.01,

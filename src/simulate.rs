@@ -4,7 +4,7 @@
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
-use crate::farfield::FanSettings;
+use crate::farfield::FarFieldSettings;
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::{ErrorEstimate, FarField};
 use crate::medium::MediumError;
@@ -266,7 +266,7 @@ fn far_field<'a>(
     let tracer = tracer(plan, index, size_parameter);
     if plan.engine == Engine::Meridians {
         let (azimuths, _) = plan.computed_azimuths(azimuths);
-        let settings = FanSettings {
+        let settings = FarFieldSettings {
             size_parameter,
             orders: &plan.orders,
             tolerance: plan.tolerance,

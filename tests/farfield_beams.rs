@@ -1,7 +1,7 @@
 //! Sums of Gaussian beams against Debye terms of the sphere and, on raindrops, against the
 //! brute-force Huygens–Fresnel sum; and the check of meridians by beams.
 
-use gonio::farfield::FanSettings;
+use gonio::farfield::FarFieldSettings;
 use gonio::farfield::gaussian_beams::GaussianBeams;
 use gonio::farfield::patches::sheets;
 use gonio::farfield::reference::huygens_fresnel::HuygensFresnel;
@@ -99,7 +99,7 @@ fn doubtful_meridians_are_left_to_beams() {
         let sun = 20f64.to_radians();
         let shape = Shape::raindrop(radius, RaindropModel::BeardChuang1987, sun).unwrap();
         let tracer = Tracer::new(&shape, index, x, 1).with_curved_interface(x);
-        let settings = FanSettings {
+        let settings = FarFieldSettings {
             size_parameter: x,
             orders: &[1],
             tolerance: 0.01,
@@ -121,7 +121,7 @@ fn tangled_reflection_is_that_of_plain_rays() {
     let shape = Shape::raindrop(3e-3, RaindropModel::BeardChuang1987, 20f64.to_radians()).unwrap();
     let tracer = Tracer::new(&shape, Complex64::new(1.3314, 0.0), x, 0).with_curved_interface(x);
     let phi = 0.7;
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: x,
         orders: &[0],
         tolerance: 0.01,

@@ -1,5 +1,5 @@
-//! Orders that meridians do not serve: sums of partial waves where the particle is small; else, where
-//! meridians do not correspond, sums of beams, whose error falls like `1/√x`, or patches for
+//! Orders that planes do not serve: sums of partial waves where the particle is small; else, where
+//! planes do not correspond, sums of beams, whose error falls like `1/√x`, or patches for
 //! particles so small, or tolerances so coarse, that those do better.
 //!
 //! Order 0 stays with patches: its rays are strongest where launch points end, at the rim, which beams
@@ -11,12 +11,12 @@ use crate::farfield::partial_waves::PartialWaves;
 use crate::farfield::patches::collecting_sphere::CollectingSphere;
 use crate::farfield::patches::interference::{Interference, PathInterpolation};
 use crate::farfield::patches::sheets;
-use crate::farfield::settings::FanSettings;
+use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::{Tracer, Wavefront};
 
 /// The waves of tangled orders.
-pub(crate) struct Tangled(Vec<Part>);
+pub(crate) struct FallbackField(Vec<Part>);
 
 /// Orders that one method serves.
 struct Part {
@@ -47,17 +47,17 @@ const OF_BEAMS: f64 = 0.02;
 const OF_PARTIAL_WAVES: f64 = 2.0;
 
 /// Whether beams serve.
-pub(crate) fn with_beams(settings: &FanSettings) -> bool {
+pub(crate) fn with_beams(settings: &FarFieldSettings) -> bool {
     settings.size_parameter >= FIRST_OF_BEAMS && settings.tolerance <= COARSEST_OF_BEAMS
 }
 
-impl Tangled {
+impl FallbackField {
     /// For some orders, ascending.
     pub(crate) fn new(
         tracer: &Tracer,
         waves: Option<PartialWaves>,
         orders: &[u32],
-        settings: &FanSettings,
+        settings: &FarFieldSettings,
     ) -> Self {
         let (reflected, transmitted) = orders.split_at(orders.partition_point(|&order| order == 0));
         let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
@@ -116,7 +116,7 @@ impl Part {
     }
 }
 
-fn patches(tracer: &Tracer, orders: &[u32], settings: &FanSettings) -> Method {
+fn patches(tracer: &Tracer, orders: &[u32], settings: &FarFieldSettings) -> Method {
     let size_parameter = settings.size_parameter;
     let rings = (PATCH_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
     let wavefront = Wavefront::corners(tracer.shape(), rings as usize, 2 * rings as usize, 0.0123);

@@ -1,17 +1,17 @@
 //! The far field of one wavelength, asked for columns of a table or for single directions.
 
-use super::azimuth::plane_set::Fan;
+use super::azimuth::plane_set::PlaneSet;
 use super::column::Column;
 use super::cross_check;
 use super::direction::Direction;
-use super::fallback::Tangled;
+use super::fallback::FallbackField;
 use super::forward::diffraction::ForwardDiffraction;
 use super::forward::wave::ForwardWave;
 use super::partial_waves::PartialWaves;
 use super::patches::collecting_sphere::CollectingSphere;
 use super::patches::interference::{Interference, PathInterpolation};
 use super::patches::sheets;
-use crate::farfield::settings::FanSettings;
+use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
 use crate::trace::Tracer;
@@ -28,8 +28,8 @@ pub struct FarField<'a> {
 /// How amplitudes are found.
 pub(crate) enum Source {
     Patches(CollectingSphere, Interference),
-    /// Meridians, and something else for the orders whose meridians do not correspond.
-    Meridians(Box<Fan>, Tangled),
+    /// Scattering planes, and something else for the orders whose planes do not correspond.
+    Planes(Box<PlaneSet>, FallbackField),
 }
 
 impl<'a> FarField<'a> {
@@ -46,18 +46,18 @@ impl<'a> FarField<'a> {
         }
     }
 
-    /// Meridians with uniform Airy functions at their folds.
-    pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
+    /// Scattering planes with uniform Airy functions at their folds.
+    pub fn meridians(tracer: &Tracer<'a>, settings: &FarFieldSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let (waves, orders) = PartialWaves::of_small_particles(tracer, settings);
-        let settings = FanSettings { orders: &orders, ..settings.clone() };
-        let mut fan = Fan::new(tracer, &settings, &silhouette);
-        for order in cross_check::doubtful_orders(&fan, tracer, &settings) {
-            fan.give_up(order);
+        let settings = FarFieldSettings { orders: &orders, ..settings.clone() };
+        let mut planes = PlaneSet::new(tracer, &settings, &silhouette);
+        for order in cross_check::doubtful_orders(&planes, tracer, &settings) {
+            planes.give_up(order);
         }
-        let tangled = Tangled::new(tracer, waves, &fan.irregular, &settings);
+        let fallback = FallbackField::new(tracer, waves, &planes.irregular, &settings);
         Self {
-            source: Source::Meridians(Box::new(fan), tangled),
+            source: Source::Planes(Box::new(planes), fallback),
             silhouette,
             size_parameter: settings.size_parameter,
             _shape: tracer.shape(),
@@ -68,7 +68,7 @@ impl<'a> FarField<'a> {
     pub fn irregular(&self) -> &[u32] {
         match &self.source {
             Source::Patches(..) => &[],
-            Source::Meridians(fan, _) => &fan.irregular,
+            Source::Planes(planes, _) => &planes.irregular,
         }
     }
 
@@ -76,7 +76,7 @@ impl<'a> FarField<'a> {
     pub fn forward_wave(&self) -> ForwardWave<'_> {
         let edge = match &self.source {
             Source::Patches(..) => None,
-            Source::Meridians(fan, _) => fan.edge(),
+            Source::Planes(planes, _) => planes.edge(),
         };
         ForwardWave { shadow: &self.silhouette, edge, size_parameter: self.size_parameter }
     }
@@ -86,12 +86,12 @@ impl<'a> FarField<'a> {
         &self.silhouette
     }
 
-    /// Amplitudes straight forward of rays that a meridian stands for and of the edge wave, where
+    /// Amplitudes straight forward of rays that a plane stands for and of the edge wave, where
     /// diffraction and external reflection are joined.
     pub fn straight_forward(&self) -> Option<AmplitudeMatrix> {
-        let Source::Meridians(fan, _) = &self.source else { return None };
-        fan.edge()?;
-        let rays = fan.columns(&[0.0], &[0.0]).swap_remove(0)[0];
+        let Source::Planes(planes, _) = &self.source else { return None };
+        planes.edge()?;
+        let rays = planes.columns(&[0.0], &[0.0]).swap_remove(0)[0];
         Some(rays + self.forward_wave().peak(&Direction::new(0.0, 0.0)))
     }
 
@@ -102,11 +102,11 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&phi| patch_column(sphere, interference, theta, phi, incoherent))
                 .collect(),
-            Source::Meridians(fan, tangled) => {
-                let caustic_order = fan.caustic_order(theta);
-                let columns = fan.columns(theta, azimuths).into_iter().zip(azimuths);
+            Source::Planes(planes, fallback) => {
+                let caustic_order = planes.caustic_order(theta);
+                let columns = planes.columns(theta, azimuths).into_iter().zip(azimuths);
                 let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
-                    tangled.add(theta, phi, &mut amplitude);
+                    fallback.add(theta, phi, &mut amplitude);
                     Column {
                         amplitude,
                         incoherent: Vec::new(),
@@ -126,16 +126,16 @@ impl<'a> FarField<'a> {
                 .iter()
                 .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
                 .collect(),
-            Source::Meridians(fan, tangled) => scatter_by_columns(directions, |theta, phi| {
-                let mut column = fan.columns(theta, &[phi]).swap_remove(0);
-                tangled.add(theta, phi, &mut column);
+            Source::Planes(planes, fallback) => scatter_by_columns(directions, |theta, phi| {
+                let mut column = planes.columns(theta, &[phi]).swap_remove(0);
+                fallback.add(theta, phi, &mut column);
                 column
             }),
         };
         if diffraction {
             let forward = self.forward_wave();
             for (amplitude, &(theta, phi)) in amplitudes.iter_mut().zip(directions) {
-                *amplitude += forward.beside_meridians(&Direction::new(theta, phi));
+                *amplitude += forward.beside_planes(&Direction::new(theta, phi));
             }
         }
         amplitudes

@@ -30,4 +30,4 @@ pub use column::Column;
 pub use direction::Direction;
 pub use error_estimate::ErrorEstimate;
 pub use far_field::FarField;
-pub use settings::FanSettings;
+pub use settings::FarFieldSettings;

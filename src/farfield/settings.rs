@@ -1,8 +1,8 @@
 //! What a far field is made with.
 
-/// What a fan is made with.
+/// What a far field is made with.
 #[derive(Clone, Debug)]
-pub struct FanSettings<'a> {
+pub struct FarFieldSettings<'a> {
     pub size_parameter: f64,
     pub orders: &'a [u32],
     pub tolerance: f64,

@@ -1,9 +1,9 @@
-//! How far meridians are from varying smoothly with azimuth.
+//! How far planes are from varying smoothly with azimuth.
 //!
 //! A polynomial over azimuth is only as good as what it passes through. Where rays of some azimuths
-//! are totally reflected, the last ray that leaves jumps from one meridian to the next, and all knots
-//! of a segment with it; meridians filled from their neighbours have kinks; two rays' wave may change
-//! faster than there are meridians. So every meridian is compared with the polynomial through its
+//! are totally reflected, the last ray that leaves jumps from one plane to the next, and all knots
+//! of a segment with it; planes filled from their neighbours have kinks; two rays' wave may change
+//! faster than there are planes. So every plane is compared with the polynomial through its
 //! neighbours.
 
 use crate::farfield::branch::knots::{Kind, Knot, PLAIN_AMPLITUDE, Segment};
@@ -14,32 +14,32 @@ const WEIGHTS: [f64; 3] = [0.75, -0.3, 0.05];
 /// Channels of S1 and S2, which are even in azimuth.
 const EVEN: std::ops::Range<usize> = PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 4;
 
-/// Largest difference between meridians at even steps over a half-turn and what their neighbours make
+/// Largest difference between planes at even steps over a half-turn and what their neighbours make
 /// of them: the phase of their paths at equal angles, or waves relative to their largest. Infinite
 /// where segments are of different kinds.
-pub(crate) fn roughness(meridians: &[Vec<Segment>], size_parameter: f64) -> f64 {
-    if meridians.len() <= WEIGHTS.len() {
+pub(crate) fn azimuthal_smoothness(planes: &[Vec<Segment>], size_parameter: f64) -> f64 {
+    if planes.len() <= WEIGHTS.len() {
         return 0.0;
     }
-    let kinds = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(meridians[0].iter().map(|s| s.kind));
-    if !meridians.iter().all(kinds) {
+    let kinds = |m: &Vec<Segment>| m.iter().map(|s| s.kind).eq(planes[0].iter().map(|s| s.kind));
+    if !planes.iter().all(kinds) {
         return f64::INFINITY;
     }
-    let segments = 0..meridians[0].len();
-    segments.map(|s| of_segment(meridians, s, size_parameter)).fold(0.0, f64::max)
+    let segments = 0..planes[0].len();
+    segments.map(|s| of_segment(planes, s, size_parameter)).fold(0.0, f64::max)
 }
 
-fn of_segment(meridians: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
-    let last = meridians.len() - 1;
-    // meridians beyond either end are mirror images
+fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
+    let last = planes.len() - 1;
+    // planes beyond either end are mirror images
     let around = |j: usize, k: usize| [j.abs_diff(k), last - last.abs_diff(j + k)];
     let (mut paths, mut waves, mut size) = (0.0f64, 0.0f64, 0.0f64);
     for j in 0..=last {
-        for (i, knot) in meridians[j][s].knots.iter().enumerate() {
+        for (i, knot) in planes[j][s].knots.iter().enumerate() {
             let mut expected = [0.0; EVEN.end];
             for (k, weight) in WEIGHTS.iter().enumerate() {
                 for neighbour in around(j, k + 1) {
-                    add(&mut expected, *weight, &meridians[neighbour][s].knots[i]);
+                    add(&mut expected, *weight, &planes[neighbour][s].knots[i]);
                 }
             }
             let path = knot[1] + knot[2] * (expected[0] - knot[0]);
@@ -48,7 +48,7 @@ fn of_segment(meridians: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 
             size = EVEN.map(|c| knot[c].abs()).fold(size, f64::max);
         }
     }
-    let wave = meridians[0][s].kind == Kind::Wave;
+    let wave = planes[0][s].kind == Kind::Wave;
     (size_parameter * paths).max(if wave { waves / size } else { 0.0 })
 }
 

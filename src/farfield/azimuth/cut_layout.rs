@@ -1,14 +1,14 @@
-//! How all meridians of an order are cut: the same landmarks, the same fractions.
+//! How all planes of an order are cut: the same landmarks, the same fractions.
 
-use crate::farfield::branch::window::Taper;
+use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::scan::Scan;
 use crate::farfield::deflection::scattering_plane::Node;
-use crate::farfield::impact_integral::near_grazing_layout::RimLayout;
+use crate::farfield::impact_integral::near_grazing_layout::NearGrazingLayout;
 use std::f64::consts::FRAC_PI_2;
 
-/// Settings shared by all meridians of an order, so that their segments correspond.
+/// Settings shared by all planes of an order, so that their segments correspond.
 #[derive(Clone, Debug)]
-pub struct ArcLayout {
+pub struct CutLayout {
     /// Nodes of the first scan.
     pub scan: usize,
     /// Angle about later axis crossings that is left out, radians.
@@ -23,12 +23,12 @@ pub struct ArcLayout {
     pub knots: Vec<usize>,
     pub size_parameter: f64,
     /// Where an integral takes over from rays near the rim.
-    pub rim: Option<RimLayout>,
+    pub rim: Option<NearGrazingLayout>,
     /// Where the edge wave takes over from reflected rays, by the cosine of the grazing angle.
-    pub edge: Option<Taper>,
+    pub edge: Option<Window>,
 }
 
-impl ArcLayout {
+impl CutLayout {
     /// How each plane is scanned.
     pub(crate) fn scanning(&self) -> Scan {
         let limit = self.rim.as_ref().map_or(FRAC_PI_2, |rim| rim.full.asin());
@@ -46,7 +46,7 @@ impl ArcLayout {
             density: 2.0 * self.density,
             knots: self.knots.iter().map(|count| 2 * count).collect(),
             folds: self.folds.iter().map(FoldLayout::finer).collect(),
-            rim: self.rim.as_ref().map(RimLayout::finer),
+            rim: self.rim.as_ref().map(NearGrazingLayout::finer),
             ..self.clone()
         }
     }

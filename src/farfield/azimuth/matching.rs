@@ -1,12 +1,12 @@
-//! Tracing the meridians of an order at several azimuths, and cutting them into segments that
+//! Tracing the planes of an order at several azimuths, and cutting them into segments that
 //! correspond: the same landmarks, the same knots.
 
 use super::axis_waves::axis_waves;
-use super::cut_layout::{ArcLayout, FoldLayout};
+use super::cut_layout::{CutLayout, FoldLayout};
 use crate::farfield::branch::knots::{Kind, Knot, Segment};
-use crate::farfield::deflection::curve::Arc;
-use crate::farfield::deflection::scattering_plane::{Meridian, Node, axial_ray};
-use crate::farfield::impact_integral::glory::AxisWave;
+use crate::farfield::deflection::curve::DeflectionCurve;
+use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane, axial_ray};
+use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_critical;
 use crate::trace::Tracer;
 use rayon::prelude::*;
@@ -25,63 +25,69 @@ const LONGEST_DARK: f64 = 0.45;
 const CLEARANCE: f64 = 0.9;
 const SHORTEST_ZETA: f64 = 6.0;
 
-/// Meridians over a half-turn that decide whether a fold needs an integral.
+/// Scattering planes over a half-turn that decide whether a fold needs an integral.
 const DECIDING: usize = 9;
 
 /// What is traced of an order.
 pub(crate) struct Traced {
-    pub meridians: Vec<Vec<Segment>>,
+    pub planes: Vec<Vec<Segment>>,
     /// How they were cut.
-    pub layout: ArcLayout,
+    pub layout: CutLayout,
     /// Waves about the axis, in rotationally symmetric scenes.
-    pub about_axis: Vec<AxisWave>,
+    pub about_axis: Vec<Glory>,
 }
 
-/// Trace the meridians of an order and cut them into corresponding segments.
+/// Trace the planes of an order and cut them into corresponding segments.
 pub(crate) fn trace(
     tracer: &Tracer,
     order: u32,
     centre: [f64; 2],
     places: &[f64],
-    mut layout: ArcLayout,
-    tangle: f64,
+    mut layout: CutLayout,
+    caustic_disorder: f64,
 ) -> Option<Traced> {
     let silhouette = tracer.shape().silhouette().tabulated();
-    let arc = |phi: f64| {
-        Arc::new(Meridian::new(tracer, order, phi, centre), &silhouette, layout.scanning())
+    let curve = |phi: f64| {
+        DeflectionCurve::new(
+            ScatteringPlane::new(tracer, order, phi, centre),
+            &silhouette,
+            layout.scanning(),
+        )
     };
-    // A few meridians far apart tell soon whether all can correspond.
+    // A few planes far apart tell soon whether all can correspond.
     let probes = [0.0, 0.5, 1.0, 0.25, 0.75].map(|f| (f * (places.len() - 1) as f64) as usize);
-    let signature = arc(places[probes[0]])?.signature();
-    let differs = |k: &&usize| arc(places[**k]).is_none_or(|a| a.signature() != signature);
+    let signature = curve(places[probes[0]])?.signature();
+    let differs = |k: &&usize| curve(places[**k]).is_none_or(|a| a.signature() != signature);
     if probes.iter().filter(differs).count() > 1 {
         return None;
     }
-    let arcs: Vec<Option<Arc>> =
-        places.par_iter().map(|&phi| arc(phi).filter(|arc| arc.signature() == signature)).collect();
-    let found: Vec<&Arc> = arcs.iter().flatten().collect();
+    let curves: Vec<Option<DeflectionCurve>> = places
+        .par_iter()
+        .map(|&phi| curve(phi).filter(|curve| curve.signature() == signature))
+        .collect();
+    let found: Vec<&DeflectionCurve> = curves.iter().flatten().collect();
     if places.len() - found.len() > most_missing(places.len()) {
         return None;
     }
     // others decide on a fold's segment, too, so that few azimuths are treated as many are
     let deciding = near_critical::serves(tracer, order) && places.len() < DECIDING;
-    let others: Vec<Option<Arc>> = (0..if deciding { DECIDING } else { 0 })
-        .map(|j| arc(PI * j as f64 / (DECIDING - 1) as f64))
-        .map(|arc| arc.filter(|arc| arc.signature() == signature))
+    let others: Vec<Option<DeflectionCurve>> = (0..if deciding { DECIDING } else { 0 })
+        .map(|j| curve(PI * j as f64 / (DECIDING - 1) as f64))
+        .map(|curve| curve.filter(|curve| curve.signature() == signature))
         .collect();
-    let all: Vec<&Arc> = found.iter().copied().chain(others.iter().flatten()).collect();
+    let all: Vec<&DeflectionCurve> = found.iter().copied().chain(others.iter().flatten()).collect();
     layout.folds = fold_reaches(&all, layout.axis_gap, layout.size_parameter);
     if let Some(rim) = &mut layout.rim {
         let index = tracer.index().re;
-        rim.spread_knots(&found, layout.axis_gap, index, tangle, layout.size_parameter)?;
+        rim.spread_knots(&found, layout.axis_gap, index, caustic_disorder, layout.size_parameter)?;
     }
     let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
     for _ in 0..shrinks {
-        if let Some((meridians, layout)) = cut(&arcs, &others, &layout) {
+        if let Some((planes, layout)) = cut(&curves, &others, &layout) {
             let symmetric = tracer.shape().rotational_symmetry();
             let about_axis =
                 if symmetric { axis_waves(found.first()?, &layout) } else { Vec::new() };
-            return Some(Traced { meridians, layout, about_axis });
+            return Some(Traced { planes, layout, about_axis });
         }
         layout.folds.iter_mut().for_each(|fold| {
             fold.dark *= 0.6;
@@ -91,8 +97,8 @@ pub(crate) fn trace(
     None
 }
 
-/// Meridians that may be filled from their neighbours: rays get lost here and there where a
-/// meridian grazes a tangle of rays.
+/// Scattering planes that may be filled from their neighbours: rays get lost here and there where a
+/// plane grazes a tangle of rays.
 fn most_missing(count: usize) -> usize {
     count / 10
 }
@@ -100,9 +106,13 @@ fn most_missing(count: usize) -> usize {
 /// How often the reach of pair segments is shortened when a complex ray cannot be found.
 const SHRINKS: usize = 6;
 
-/// Reach on the dark and lit side of each fold, common to all meridians.
-fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<FoldLayout> {
-    let measured: Vec<Vec<(f64, f64)>> = arcs.iter().map(|arc| arc.folds(axis_gap)).collect();
+/// Reach on the dark and lit side of each fold, common to all planes.
+fn fold_reaches(
+    curves: &[&DeflectionCurve],
+    axis_gap: f64,
+    size_parameter: f64,
+) -> Vec<FoldLayout> {
+    let measured: Vec<Vec<(f64, f64)>> = curves.iter().map(|curve| curve.folds(axis_gap)).collect();
     let count = measured.first().map_or(0, Vec::len);
     let unit = size_parameter.powf(-2.0 / 3.0);
     (0..count)
@@ -117,38 +127,39 @@ fn fold_reaches(arcs: &[&Arc], axis_gap: f64, size_parameter: f64) -> Vec<FoldLa
         .collect()
 }
 
-/// All segments of all meridians, with common numbers of knots.
+/// All segments of all planes, with common numbers of knots.
 fn cut(
-    arcs: &[Option<Arc>],
-    others: &[Option<Arc>],
-    layout: &ArcLayout,
-) -> Option<(Vec<Vec<Segment>>, ArcLayout)> {
+    curves: &[Option<DeflectionCurve>],
+    others: &[Option<DeflectionCurve>],
+    layout: &CutLayout,
+) -> Option<(Vec<Vec<Segment>>, CutLayout)> {
     type Ends = Vec<[Node; 2]>;
-    let find_ends = |arcs: &[Option<Arc>], layout: &ArcLayout| -> Vec<Option<Ends>> {
-        arcs.par_iter().map(|arc| arc.as_ref().and_then(|arc| arc.ends(layout))).collect()
+    let find_ends = |curves: &[Option<DeflectionCurve>], layout: &CutLayout| -> Vec<Option<Ends>> {
+        curves.par_iter().map(|curve| curve.as_ref().and_then(|curve| curve.ends(layout))).collect()
     };
     let mut layout = layout.clone();
-    let mut ends = find_ends(arcs, &layout);
+    let mut ends = find_ends(curves, &layout);
     layout.cut = before_the_ends(ends.iter().flatten().filter_map(|ends| ends.last()));
     if layout.cut.is_some() {
-        ends = find_ends(arcs, &layout);
+        ends = find_ends(curves, &layout);
     }
     let other_ends = find_ends(others, &layout);
-    let all = arcs.iter().chain(others).zip(ends.iter().chain(&other_ends));
-    let deciding: Vec<(&Arc, &Ends)> =
-        all.filter_map(|(arc, ends)| arc.as_ref().zip(ends.as_ref())).collect();
+    let all = curves.iter().chain(others).zip(ends.iter().chain(&other_ends));
+    let deciding: Vec<(&DeflectionCurve, &Ends)> =
+        all.filter_map(|(curve, ends)| curve.as_ref().zip(ends.as_ref())).collect();
     if avoid_total_reflection(&deciding, &mut layout) {
-        ends = find_ends(arcs, &layout);
+        ends = find_ends(curves, &layout);
     }
     let plain_count = ends.iter().flatten().next()?.len();
     let pieces = |s: usize| ends.iter().flatten().map(|e| layout.pieces(&e[s])).max().unwrap_or(0);
     layout.knots = (0..plain_count).map(pieces).collect();
-    let segments = |(arc, ends): (&Option<Arc>, &Option<Ends>)| -> Option<Vec<Segment>> {
-        arc.as_ref()?.segments(&layout, ends.as_ref()?)
-    };
-    let cut: Vec<Option<Vec<Segment>>> = arcs.par_iter().zip(&ends).map(segments).collect();
+    let segments =
+        |(curve, ends): (&Option<DeflectionCurve>, &Option<Ends>)| -> Option<Vec<Segment>> {
+            curve.as_ref()?.segments(&layout, ends.as_ref()?)
+        };
+    let cut: Vec<Option<Vec<Segment>>> = curves.par_iter().zip(&ends).map(segments).collect();
     let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
-    // a fold's integral on one meridian may be a pair on another, whose impacts do not serve
+    // a fold's integral on one plane may be a pair on another, whose impacts do not serve
     let alike = |(a, b): (&Segment, &Kind)| {
         a.kind == *b
             || matches!(
@@ -162,21 +173,24 @@ fn cut(
     Some((filled, layout))
 }
 
-/// One more meridian, cut like those of a layout.
+/// One more plane, cut like those of a layout.
 pub(crate) fn another(
     tracer: &Tracer,
     order: u32,
     azimuth: f64,
-    layout: &ArcLayout,
+    layout: &CutLayout,
 ) -> Option<Vec<Segment>> {
     let silhouette = tracer.shape().silhouette().tabulated();
     let centre = axial_ray(tracer, order);
-    let arc =
-        Arc::new(Meridian::new(tracer, order, azimuth, centre), &silhouette, layout.scanning())?;
-    arc.segments(layout, &arc.ends(layout)?)
+    let curve = DeflectionCurve::new(
+        ScatteringPlane::new(tracer, order, azimuth, centre),
+        &silhouette,
+        layout.scanning(),
+    )?;
+    curve.segments(layout, &curve.ends(layout)?)
 }
 
-/// Where to cut last segments whose last rays differ from meridian to meridian, as they do where some
+/// Where to cut last segments whose last rays differ from plane to plane, as they do where some
 /// are totally reflected: their knots would jump along.
 fn before_the_ends<'e>(last: impl Iterator<Item = &'e [Node; 2]> + Clone) -> Option<f64> {
     const ALIKE: f64 = 1e-3;
@@ -189,15 +203,19 @@ fn before_the_ends<'e>(last: impl Iterator<Item = &'e [Node; 2]> + Clone) -> Opt
     serves.then_some(low - SPARE * (low - begin))
 }
 
-/// Keep folds' segments from rays near total reflection, on all meridians: those that would be left too
-/// short for single rays beyond become integrals, as far as all meridians' impacts serve. Whether
+/// Keep folds' segments from rays near total reflection, on all planes: those that would be left too
+/// short for single rays beyond become integrals, as far as all planes' impacts serve. Whether
 /// any changed.
-fn avoid_total_reflection(arcs: &[(&Arc, &Vec<[Node; 2]>)], layout: &mut ArcLayout) -> bool {
+fn avoid_total_reflection(
+    curves: &[(&DeflectionCurve, &Vec<[Node; 2]>)],
+    layout: &mut CutLayout,
+) -> bool {
     let critical: Vec<Vec<f64>> =
-        arcs.iter().map(|(arc, ends)| near_critical::critical_angles(arc, ends)).collect();
+        curves.iter().map(|(curve, ends)| near_critical::critical_angles(curve, ends)).collect();
     let mut changed = false;
     for (f, fold) in layout.folds.iter_mut().enumerate() {
-        let nearest = CLEARANCE * critical.iter().map(|arc| arc[f]).fold(f64::INFINITY, f64::min);
+        let nearest =
+            CLEARANCE * critical.iter().map(|curve| curve[f]).fold(f64::INFINITY, f64::min);
         if nearest > fold.lit {
             continue;
         }
@@ -206,9 +224,10 @@ fn avoid_total_reflection(arcs: &[(&Arc, &Vec<[Node; 2]>)], layout: &mut ArcLayo
             fold.lit = nearest;
             continue;
         }
-        let reach =
-            |(arc, _): &(&Arc, _)| near_critical::integral_reach(arc, f, layout.size_parameter);
-        let reaches: Vec<f64> = arcs.iter().filter_map(reach).collect();
+        let reach = |(curve, _): &(&DeflectionCurve, _)| {
+            near_critical::integral_reach(curve, f, layout.size_parameter)
+        };
+        let reaches: Vec<f64> = curves.iter().filter_map(reach).collect();
         if reaches.is_empty() {
             continue;
         }
@@ -221,21 +240,21 @@ fn avoid_total_reflection(arcs: &[(&Arc, &Vec<[Node; 2]>)], layout: &mut ArcLayo
     changed
 }
 
-/// Fill meridians that were not found from the nearest on both sides. `None` when too many or an
+/// Fill planes that were not found from the nearest on both sides. `None` when too many or an
 /// outer one is missing.
-fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
-    let count = meridians.len();
-    if meridians.iter().filter(|m| m.is_none()).count() > most_missing(count) {
+fn fill_missing(mut planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
+    let count = planes.len();
+    if planes.iter().filter(|m| m.is_none()).count() > most_missing(count) {
         return None;
     }
     for k in 0..count {
-        if meridians[k].is_some() {
+        if planes[k].is_some() {
             continue;
         }
-        let after = (k + 1..count).find(|&j| meridians[j].is_some())?;
+        let after = (k + 1..count).find(|&j| planes[j].is_some())?;
         let before = k.checked_sub(1)?;
         let share = 1.0 / (after - before) as f64;
-        let (a, b) = (meridians[before].as_ref()?, meridians[after].as_ref()?);
+        let (a, b) = (planes[before].as_ref()?, planes[after].as_ref()?);
         if a.iter().zip(b).any(|(a, b)| a.kind != b.kind) {
             return None;
         }
@@ -244,7 +263,7 @@ fn fill_missing(mut meridians: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segm
                 |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
             Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
         };
-        meridians[k] = Some(a.iter().zip(b).map(between).collect());
+        planes[k] = Some(a.iter().zip(b).map(between).collect());
     }
-    meridians.into_iter().collect()
+    planes.into_iter().collect()
 }

@@ -1,26 +1,26 @@
-//! The segments of an arc: data at their knots.
+//! The segments of a curve: data at their knots.
 
-use super::cut_layout::ArcLayout;
+use super::cut_layout::CutLayout;
 use crate::farfield::branch::knots::{
     CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
 };
-use crate::farfield::branch::window::Taper;
-use crate::farfield::deflection::curve::Arc;
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::fold::{Fold, PAIR_CHANNELS};
 use crate::farfield::deflection::landmark::Landmark;
 use crate::farfield::deflection::scan::Edge;
 use crate::farfield::deflection::scattering_plane::Node;
 use crate::farfield::impact_integral::near_critical::{self, Stretch};
-use crate::farfield::impact_integral::near_grazing::RimWave;
+use crate::farfield::impact_integral::near_grazing::NearGrazing;
 use crate::math::chebyshev::Chebyshev;
 use num_complex::Complex64;
 
 /// Chebyshev points of a pair segment.
 const PAIR_POINTS: usize = 20;
 
-impl Arc<'_> {
+impl DeflectionCurve<'_> {
     /// The rays at both ends of each plain segment. `None` where one cannot be found.
-    pub fn ends(&self, layout: &ArcLayout) -> Option<Vec<[Node; 2]>> {
+    pub fn ends(&self, layout: &CutLayout) -> Option<Vec<[Node; 2]>> {
         let mut ends = Vec::new();
         let mut fold_number = 0;
         let cut = layout.cut.map(Landmark::Cut);
@@ -46,7 +46,7 @@ impl Arc<'_> {
 
     /// The ray where a plain segment begins or ends at a landmark; towards the neighbour given by
     /// the reach of its fold or the axis gap.
-    fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &ArcLayout) -> Option<Edge> {
+    fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &CutLayout) -> Option<Edge> {
         Some(match landmark {
             Landmark::Axial => Edge::Alpha(0.0),
             Landmark::Cut(alpha) => Edge::Alpha(*alpha),
@@ -59,7 +59,7 @@ impl Arc<'_> {
     }
 
     /// Cut into segments between the ends found before. `None` where a ray cannot be found.
-    pub fn segments(&self, layout: &ArcLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
+    pub fn segments(&self, layout: &CutLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
         let mut segments = Vec::new();
         let mut folds = layout.folds.iter();
         let cut = layout.cut.map(Landmark::Cut);
@@ -81,7 +81,7 @@ impl Arc<'_> {
             segments.push(self.plain_segment([pair[0], pair[1]], &ends[k], *count, layout)?);
         }
         if let Some(rim) = &layout.rim {
-            segments.extend(RimWave::new(self, rim, layout.size_parameter)?.segments()?);
+            segments.extend(NearGrazing::new(self, rim, layout.size_parameter)?.segments()?);
         }
         Some(segments)
     }
@@ -91,9 +91,9 @@ impl Arc<'_> {
         fold: &Fold,
         dark: f64,
         reach: f64,
-        layout: &ArcLayout,
+        layout: &CutLayout,
     ) -> Option<Segment> {
-        let series = fold.sample(self.meridian(), dark, reach, PAIR_POINTS)?;
+        let series = fold.sample(self.plane(), dark, reach, PAIR_POINTS)?;
         let count = 2 + (1.5 * layout.density * (dark + reach)).ceil() as usize;
         let knots = (0..=count)
             .map(|k| pair_knot(fold, &series, -dark + (dark + reach) * k as f64 / count as f64))
@@ -107,10 +107,10 @@ impl Arc<'_> {
         [start, end]: [&Landmark; 2],
         [a, b]: &[Node; 2],
         count: usize,
-        layout: &ArcLayout,
+        layout: &CutLayout,
     ) -> Option<Segment> {
         // about the axis of other particles rays are few and far from those of a sphere
-        let symmetric = self.meridian().tracer.shape().rotational_symmetry();
+        let symmetric = self.plane().tracer.shape().rotational_symmetry();
         let closer = [
             symmetric && matches!(start, Landmark::Axis(_)),
             matches!(end, Landmark::End(_)) || symmetric && matches!(end, Landmark::Axis(_)),
@@ -143,17 +143,17 @@ impl Arc<'_> {
     fn bounded_spread(&self, node: &Node) -> f64 {
         const NEAREST: f64 = 0.05;
         let spread = node.exit.spread().abs();
-        let symmetric = self.meridian().tracer.shape().rotational_symmetry();
-        if self.meridian().order <= 3 || symmetric {
+        let symmetric = self.plane().tracer.shape().rotational_symmetry();
+        if self.plane().order <= 3 || symmetric {
             return spread;
         }
-        let across = self.meridian().spread_across(&node.exit, node.angle).abs();
+        let across = self.plane().spread_across(&node.exit, node.angle).abs();
         spread * (across.max(NEAREST) / across)
     }
 
-    fn plain_knot(&self, node: &Node, layout: &ArcLayout) -> Knot {
-        let (_, growing) = self.meridian().frame(node.angle);
-        let transfer = self.meridian().transfer(&node.exit, node.angle);
+    fn plain_knot(&self, node: &Node, layout: &CutLayout) -> Knot {
+        let (_, growing) = self.plane().frame(node.angle);
+        let transfer = self.plane().transfer(&node.exit, node.angle);
         let rim = layout.rim.as_ref().map(|rim| rim.weight(node.alpha.sin()));
         let edge =
             layout.edge.map(|edge| reflected_share(&edge, node.angle, layout.size_parameter));
@@ -177,7 +177,7 @@ impl Arc<'_> {
 
 /// What the edge wave leaves to a ray reflected by an angle: the complement of its weight, with the
 /// next term of stationary phase, since the weight changes over few Fresnel zones.
-fn reflected_share(edge: &Taper, angle: f64, x: f64) -> Complex64 {
+fn reflected_share(edge: &Window, angle: f64, x: f64) -> Complex64 {
     let cos = (0.5 * angle).cos();
     let [weight, slope, bend] = edge.with_derivatives(cos);
     if weight == 0.0 || weight == 1.0 {

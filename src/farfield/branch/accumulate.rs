@@ -57,7 +57,7 @@ impl Sums {
     }
 }
 
-/// Which half of a meridian's plane a column is: the side of its azimuth, or the far side.
+/// Which half of a plane a column is: the side of its azimuth, or the far side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     Near,

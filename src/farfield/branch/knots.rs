@@ -1,4 +1,4 @@
-//! A segment: a stretch of a meridian's far field as knots, between which path and amplitudes are
+//! A segment: a stretch of a plane's far field as knots, between which path and amplitudes are
 //! cubics in the exit angle. What a knot holds depends on the kind of segment.
 
 /// Numbers at a knot: angle, then
@@ -28,7 +28,7 @@ pub enum Kind {
     Wave,
 }
 
-/// A stretch of an arc.
+/// A stretch of a curve.
 #[derive(Clone, Debug)]
 pub struct Segment {
     pub kind: Kind,

@@ -2,14 +2,14 @@
 
 /// A weight that rises from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taper {
+pub struct Window {
     /// Where it leaves 0.
     pub start: f64,
     /// Where it reaches 1.
     pub full: f64,
 }
 
-impl Taper {
+impl Window {
     /// The weight at a place: all its derivatives vanish at both ends.
     pub fn weight(&self, place: f64) -> f64 {
         self.with_derivatives(place)[0]

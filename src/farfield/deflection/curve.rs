@@ -1,37 +1,41 @@
-//! Arcs: one meridian of one order, cut into segments with smooth data at knots.
+//! Deflection curves: the rays of one order in one scattering plane, cut into segments with smooth data at knots.
 //!
 //! Between axial ray, folds, axis crossings and rim the exit angle is monotone: a *plain* segment,
 //! one ray per direction. About a fold, a *pair* segment holds both rays in their analytic
 //! combinations, on the lit and on the dark side. Knots sit at the same fractions of a segment on
-//! every meridian, so that all their data vary smoothly with azimuth too.
+//! every plane, so that all their data vary smoothly with azimuth too.
 
 use super::fold::Fold;
 use super::landmark::Landmark;
 use super::scan::{Edge, Scan, ScannedRays};
-use super::scattering_plane::{Meridian, Node};
+use super::scattering_plane::{Node, ScatteringPlane};
 use crate::shape::Silhouette;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A meridian with its landmarks found, ready to be cut into segments.
-pub struct Arc<'a> {
+/// A plane with its landmarks found, ready to be cut into segments.
+pub struct DeflectionCurve<'a> {
     rays: ScannedRays<'a>,
     pub(crate) landmarks: Vec<Landmark>,
     last: Node,
 }
 
-impl<'a> Arc<'a> {
-    /// Scan a meridian. `None` when its rays do not form a chain this method understands.
-    pub fn new(meridian: Meridian<'a>, silhouette: &'a Silhouette<'a>, scan: Scan) -> Option<Self> {
-        let rays = ScannedRays::new(meridian, silhouette, scan)?;
+impl<'a> DeflectionCurve<'a> {
+    /// Scan a plane. `None` when its rays do not form a chain this method understands.
+    pub fn new(
+        plane: ScatteringPlane<'a>,
+        silhouette: &'a Silhouette<'a>,
+        scan: Scan,
+    ) -> Option<Self> {
+        let rays = ScannedRays::new(plane, silhouette, scan)?;
         let last = *rays.nodes.last()?;
-        let mut arc = Self { rays, landmarks: vec![Landmark::Axial], last };
-        arc.find_landmarks(FRAC_PI_2 / scan.nodes as f64, scan.limit)?;
-        Some(arc)
+        let mut curve = Self { rays, landmarks: vec![Landmark::Axial], last };
+        curve.find_landmarks(FRAC_PI_2 / scan.nodes as f64, scan.limit)?;
+        Some(curve)
     }
 
     /// Find the landmarks of rays launched up to `limit` (in α), and the last ray of all.
     fn find_landmarks(&mut self, step: f64, limit: f64) -> Option<()> {
-        let start = self.rays.meridian.axis_angle();
+        let start = self.rays.plane.axis_angle();
         for k in 1..self.rays.nodes.len() {
             let (a, b) = (self.rays.nodes[k - 1], self.rays.nodes[k]);
             let half_turn = |n: &Node| ((n.angle - start) / PI).floor();
@@ -51,7 +55,7 @@ impl<'a> Arc<'a> {
                 self.rays.nodes.truncate(k);
                 break;
             } else if a.exit.spread() * b.exit.spread() < 0.0 && self.turns_back(k) {
-                let fold = Fold::between(&self.rays.meridian, self.rays.silhouette, &a, &b)?;
+                let fold = Fold::between(&self.rays.plane, self.rays.silhouette, &a, &b)?;
                 self.landmarks.push(Landmark::Fold(fold));
             }
         }
@@ -65,8 +69,8 @@ impl<'a> Arc<'a> {
         Some(())
     }
 
-    /// Whether the exit angle turns back between nodes `k - 1` and `k`: a fold of the meridian. Else
-    /// a change of the spread's sign means that rays meet across the meridian's plane, as they do
+    /// Whether the exit angle turns back between nodes `k - 1` and `k`: a fold of the plane. Else
+    /// a change of the spread's sign means that rays meet across the plane, as they do
     /// near the axis for flattened particles.
     fn turns_back(&self, k: usize) -> bool {
         let angle = |k: usize| self.rays.nodes.get(k).map(|n| n.angle);
@@ -77,9 +81,9 @@ impl<'a> Arc<'a> {
         before * after < 0.0
     }
 
-    /// The meridian that this arc is.
-    pub fn meridian(&self) -> &Meridian<'a> {
-        &self.rays.meridian
+    /// The plane that this curve is.
+    pub fn plane(&self) -> &ScatteringPlane<'a> {
+        &self.rays.plane
     }
 
     /// The rays of the scan.
@@ -117,7 +121,7 @@ impl<'a> Arc<'a> {
         Some([sense * farthest, self.last.angle - first.angle])
     }
 
-    /// Signature by which meridians correspond.
+    /// Signature by which planes correspond.
     pub fn signature(&self) -> String {
         let letter = |l: &Landmark| match l {
             Landmark::Axial => 'A',
@@ -136,14 +140,14 @@ impl<'a> Arc<'a> {
         for (k, landmark) in self.landmarks.iter().enumerate() {
             let Landmark::Fold(fold) = landmark else { continue };
             let room = |other: &Landmark| match other {
-                Landmark::Axial => (fold.angle - self.rays.meridian.axis_angle()).abs(),
+                Landmark::Axial => (fold.angle - self.rays.plane.axis_angle()).abs(),
                 Landmark::Axis(axis) => (fold.angle - axis).abs() - axis_gap,
                 Landmark::Fold(next) => 0.5 * (fold.angle - next.angle).abs(),
                 Landmark::End(node) => (fold.angle - node.angle).abs(),
                 Landmark::Cut(_) => f64::INFINITY,
             };
             let available = room(&self.landmarks[k - 1]).min(room(&self.landmarks[k + 1]));
-            found.push((fold.strength(&self.rays.meridian).unwrap_or(1.0), available));
+            found.push((fold.strength(&self.rays.plane).unwrap_or(1.0), available));
         }
         found
     }

@@ -1,4 +1,4 @@
-//! A fold caustic on a meridian: where two rays of one order become one.
+//! A fold caustic on a plane: where two rays of one order become one.
 //!
 //! With the angle `δ` from the caustic (positive on the lit side) and `q = √δ`, the two rays are one
 //! analytic function of `q`, taken at `+q` and `-q`; on the dark side `q` is imaginary and the rays
@@ -9,7 +9,7 @@
 //!
 //! `+` is the ray with the larger path; it has passed one focal line more.
 
-use super::scattering_plane::{Meridian, Node};
+use super::scattering_plane::{Node, ScatteringPlane};
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::scalar::Scalar;
 use crate::shape::Silhouette;
@@ -19,7 +19,7 @@ use num_complex::Complex64;
 /// Channels of a pair: mean path, ζ̂, g₀ and g₁ (real and imaginary parts of S1 … S4).
 pub const PAIR_CHANNELS: usize = 18;
 
-/// A fold on a meridian.
+/// A fold on a plane.
 #[derive(Clone, Debug)]
 pub struct Fold {
     pub alpha: f64,
@@ -49,7 +49,7 @@ struct Pair {
 impl Fold {
     /// Refine a fold between two neighbouring nodes whose spreads have opposite signs.
     pub fn between(
-        meridian: &Meridian,
+        plane: &ScatteringPlane,
         silhouette: &Silhouette,
         before: &Node,
         after: &Node,
@@ -62,7 +62,7 @@ impl Fold {
             let share = (a / (a - b)).clamp(0.05, 0.95);
             let alpha = low.alpha + share * (high.alpha - low.alpha);
             let psi = low.psi + share * (high.psi - low.psi);
-            middle = meridian.node(silhouette, alpha, psi, low.angle)?;
+            middle = plane.node(silhouette, alpha, psi, low.angle)?;
             if middle.exit.spread() * a > 0.0 {
                 low = middle
             } else {
@@ -72,15 +72,15 @@ impl Fold {
                 break;
             }
         }
-        Self::at(meridian, &middle, before, after)
+        Self::at(plane, &middle, before, after)
     }
 
-    /// Local geometry: how the angle bends along the meridian at the fold.
-    fn at(meridian: &Meridian, fold: &Node, before: &Node, after: &Node) -> Option<Self> {
+    /// Local geometry: how the angle bends along the plane at the fold.
+    fn at(plane: &ScatteringPlane, fold: &Node, before: &Node, after: &Node) -> Option<Self> {
         let lit = (0.5 * (before.angle + after.angle) - fold.angle).signum();
         // The kernel of the map of directions: ds(kernel) = 0.
-        let (_, growing) = meridian.frame(fold.angle);
-        let across = meridian.across();
+        let (_, growing) = plane.frame(fold.angle);
+        let across = plane.across();
         let row = |axis: crate::math::vec3::Vec3<f64>| {
             [fold.exit.ds[0].dot(axis), fold.exit.ds[1].dot(axis)]
         };
@@ -96,7 +96,7 @@ impl Fold {
         let h = 1e-3;
         let probe = |t: f64| {
             let place = [fold.place[0] + t * kernel[0], fold.place[1] + t * kernel[1]];
-            meridian.exit(place).map(|e| e.direction.dot(growing))
+            plane.exit(place).map(|e| e.direction.dot(growing))
         };
         let bend = (probe(h)? + probe(-h)?) / (h * h);
         let step = (2.0 / bend.abs()).sqrt();
@@ -111,8 +111,8 @@ impl Fold {
         };
         // Which of the two has the larger path, and their focal lines, from a pair nearby.
         let delta = 1e-3;
-        let pair = fold.pair_near(meridian, delta, delta.sqrt())?;
-        let (one, two) = (meridian.exit(pair.larger)?, meridian.exit(pair.smaller)?);
+        let pair = fold.pair_near(plane, delta, delta.sqrt())?;
+        let (one, two) = (plane.exit(pair.larger)?, plane.exit(pair.smaller)?);
         fold.focal_lines = one.focal_lines + two.focal_lines;
         if one.path < two.path {
             fold.larger = -1.0;
@@ -122,23 +122,23 @@ impl Fold {
     }
 
     /// The pair at a small δ > 0 from the local expansion.
-    fn pair_near(&self, meridian: &Meridian, delta: f64, q: f64) -> Option<Pair> {
+    fn pair_near(&self, plane: &ScatteringPlane, delta: f64, q: f64) -> Option<Pair> {
         let angle = self.angle + self.lit * delta;
         let start = |sign: f64| {
             [self.place[0] + sign * q * self.tangent[0], self.place[1] + sign * q * self.tangent[1]]
         };
-        let (larger, _) = meridian.aim(angle, start(1.0))?;
-        let (smaller, _) = meridian.aim(angle, start(-1.0))?;
+        let (larger, _) = plane.aim(angle, start(1.0))?;
+        let (smaller, _) = plane.aim(angle, start(-1.0))?;
         let apart = (larger[0] - smaller[0]).hypot(larger[1] - smaller[1]);
         (apart > 0.2 * q * self.tangent[0].hypot(self.tangent[1]))
             .then_some(Pair { larger, smaller })
     }
 
     /// `ζ̂/δ` near the caustic: how fast the phase difference of the two rays grows.
-    pub fn strength(&self, meridian: &Meridian) -> Option<f64> {
+    pub fn strength(&self, plane: &ScatteringPlane) -> Option<f64> {
         let delta = 1e-3;
-        let pair = self.pair_near(meridian, delta, delta.sqrt())?;
-        let difference = meridian.exit(pair.larger)?.path - meridian.exit(pair.smaller)?.path;
+        let pair = self.pair_near(plane, delta, delta.sqrt())?;
+        let difference = plane.exit(pair.larger)?.path - plane.exit(pair.smaller)?.path;
         Some((0.75 * difference).abs().powf(2.0 / 3.0) / delta)
     }
 
@@ -146,7 +146,7 @@ impl Fold {
     /// `None` where a ray cannot be found.
     pub fn sample(
         &self,
-        meridian: &Meridian,
+        plane: &ScatteringPlane,
         dark: f64,
         reach: f64,
         count: usize,
@@ -157,12 +157,12 @@ impl Fold {
         let mut path = RootPath::new(self.place, self.tangent);
         for k in first_lit..count {
             let q = deltas[k].sqrt();
-            values[k] = self.lit_values(meridian, &mut path, deltas[k], q)?;
+            values[k] = self.lit_values(plane, &mut path, deltas[k], q)?;
         }
         let size = |v: &[f64; PAIR_CHANNELS]| v[2..].iter().map(|g| g * g).sum::<f64>();
         let largest = values[first_lit..].iter().map(size).fold(0.0, f64::max);
         for k in (0..first_lit).rev() {
-            values[k] = self.dark_values(meridian, &mut path, deltas[k])?;
+            values[k] = self.dark_values(plane, &mut path, deltas[k])?;
             // Far behind a caustic near the rim the curved interface has poles: not that far.
             if !size(&values[k]).is_finite() || size(&values[k]) > RUNAWAY * largest {
                 return None;
@@ -181,15 +181,15 @@ impl Fold {
 
     fn lit_values(
         &self,
-        meridian: &Meridian,
+        plane: &ScatteringPlane,
         path: &mut RootPath,
         delta: f64,
         q: f64,
     ) -> Option<[f64; PAIR_CHANNELS]> {
         let angle = self.angle + self.lit * delta;
-        let (p1, e1) = meridian.aim(angle, path.guess(q))?;
+        let (p1, e1) = plane.aim(angle, path.guess(q))?;
         path.add(q, p1);
-        let (p2, e2) = meridian.aim(angle, path.guess(-q))?;
+        let (p2, e2) = plane.aim(angle, path.guess(-q))?;
         path.add(-q, p2);
         let difference = e1.path - e2.path;
         if difference.is_nan() || difference <= 0.0 {
@@ -197,20 +197,20 @@ impl Fold {
         }
         let z = (0.75 * difference / (q * q * q)).powf(2.0 / 3.0);
         let q = Complex64::new(q, 0.0);
-        Some(self.channels(meridian, angle, &e1, &e2, q, z, 0.5 * (e1.path + e2.path)))
+        Some(self.channels(plane, angle, &e1, &e2, q, z, 0.5 * (e1.path + e2.path)))
     }
 
     fn dark_values(
         &self,
-        meridian: &Meridian,
+        plane: &ScatteringPlane,
         path: &mut RootPath,
         delta: f64,
     ) -> Option<[f64; PAIR_CHANNELS]> {
         let angle = self.angle + self.lit * delta;
         let q = Complex64::new(0.0, (-delta).sqrt());
-        let (p1, e1) = meridian.aim(angle, path.guess_complex(q))?;
+        let (p1, e1) = plane.aim(angle, path.guess_complex(q))?;
         path.add_imaginary(q.im, p1);
-        let e2: Exit<Complex64> = meridian.exit([p1[0].conj(), p1[1].conj()])?;
+        let e2: Exit<Complex64> = plane.exit([p1[0].conj(), p1[1].conj()])?;
         // (W₊ - W₋)/q³ is real and positive
         let ratio = (e1.path - e2.path) / (q * q * q);
         if ratio.is_nan() || ratio.re <= 0.0 || ratio.im.abs() > 1e-6 * ratio.re {
@@ -218,14 +218,14 @@ impl Fold {
         }
         let z = (0.75 * ratio.re).powf(2.0 / 3.0);
         let mean = 0.5 * (e1.path + e2.path).re;
-        Some(self.channels(meridian, angle, &e1, &e2, q, z, mean))
+        Some(self.channels(plane, angle, &e1, &e2, q, z, mean))
     }
 
     /// Mean path, ζ̂, g₀ and g₁ of two rays at `±q`; `z = ζ̂/δ`.
     #[allow(clippy::too_many_arguments)] // one formula, one place
     fn channels<T: Scalar>(
         &self,
-        meridian: &Meridian,
+        plane: &ScatteringPlane,
         angle: f64,
         e1: &Exit<T>,
         e2: &Exit<T>,
@@ -236,8 +236,8 @@ impl Fold {
         // spread/q is analytic and of one sign at ±q; its root is the principal one
         let sign = (e1.spread().complex() / q).re.signum();
         let weight = |e: &Exit<T>, q: Complex64| 1.0 / (e.spread().complex() / q * sign).sqrt();
-        let t1 = meridian.transfer(e1, angle) * weight(e1, q);
-        let t2 = meridian.transfer(e2, angle) * weight(e2, -q);
+        let t1 = plane.transfer(e1, angle) * weight(e1, q);
+        let t2 = plane.transfer(e2, angle) * weight(e2, -q);
         let quarter = z.powf(0.25);
         let mut out = [0.0; PAIR_CHANNELS];
         out[0] = mean;

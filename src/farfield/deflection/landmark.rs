@@ -3,14 +3,14 @@
 use super::fold::Fold;
 use super::scattering_plane::Node;
 
-/// Landmarks along a meridian.
+/// Landmarks along a plane.
 #[derive(Clone, Debug)]
 pub(crate) enum Landmark {
     Axial,
     Fold(Fold),
     /// Crossing of the axis between two nodes; unwrapped angle of the axis.
     Axis(f64),
-    /// Just a launch coordinate, the same on all meridians.
+    /// Just a launch coordinate, the same on all planes.
     Cut(f64),
     /// Last ray that leaves: the rim, or the edge of total reflection.
     End(Box<Node>),

@@ -1,6 +1,6 @@
-//! Searching rays along an arc: by launch coordinate, by angle, at the edges of its segments.
+//! Searching rays along a curve: by launch coordinate, by angle, at the edges of its segments.
 
-use super::scattering_plane::{GRAZING, Meridian, Node};
+use super::scattering_plane::{GRAZING, Node, ScatteringPlane};
 use crate::shape::Silhouette;
 use std::f64::consts::FRAC_PI_2;
 
@@ -31,7 +31,7 @@ pub struct Scan {
 
 /// The rays of a scan, and the search for others between them.
 pub(crate) struct ScannedRays<'a> {
-    pub meridian: Meridian<'a>,
+    pub plane: ScatteringPlane<'a>,
     pub silhouette: &'a Silhouette<'a>,
     pub nodes: Vec<Node>,
 }
@@ -39,13 +39,13 @@ pub(crate) struct ScannedRays<'a> {
 impl<'a> ScannedRays<'a> {
     /// `None` where too few rays leave.
     pub(crate) fn new(
-        meridian: Meridian<'a>,
+        plane: ScatteringPlane<'a>,
         silhouette: &'a Silhouette<'a>,
         scan: Scan,
     ) -> Option<Self> {
-        let found = meridian.scan(silhouette, scan.nodes, scan.axis_gap);
+        let found = plane.scan(silhouette, scan.nodes, scan.axis_gap);
         let nodes: Vec<Node> = found.iter().flatten().copied().collect();
-        (nodes.len() >= FEWEST).then_some(Self { meridian, silhouette, nodes })
+        (nodes.len() >= FEWEST).then_some(Self { plane, silhouette, nodes })
     }
 
     /// The last ray that still leaves, within a step beyond a node. Rays farther out may leave
@@ -53,12 +53,12 @@ impl<'a> ScannedRays<'a> {
     pub(crate) fn end_after(&self, last: Node, step: f64) -> Node {
         let rim = FRAC_PI_2 - GRAZING;
         let (mut good, mut bad) = (last, (last.alpha + 1.01 * step).min(rim));
-        if let Some(node) = self.meridian.node(self.silhouette, bad, last.psi, last.angle) {
+        if let Some(node) = self.plane.node(self.silhouette, bad, last.psi, last.angle) {
             return node;
         }
         while bad - good.alpha > END_TOLERANCE {
             let middle = 0.5 * (bad + good.alpha);
-            match self.meridian.node(self.silhouette, middle, good.psi, good.angle) {
+            match self.plane.node(self.silhouette, middle, good.psi, good.angle) {
                 Some(node) => good = node,
                 None => bad = middle,
             }
@@ -75,7 +75,7 @@ impl<'a> ScannedRays<'a> {
         let angle = a.angle + share * (b.angle - a.angle);
         // next to total reflection the azimuth runs like a square root: other guesses may do better
         [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter().find_map(|s| {
-            self.meridian.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
+            self.plane.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
         })
     }
 
@@ -115,13 +115,13 @@ impl<'a> ScannedRays<'a> {
             let share = ((angle - a.angle) / (b.angle - a.angle)).clamp(0.02, 0.98);
             let (alpha, psi) =
                 (a.alpha + share * (b.alpha - a.alpha), a.psi + share * (b.psi - a.psi));
-            let node = self.meridian.node(self.silhouette, alpha, psi, angle)?;
+            let node = self.plane.node(self.silhouette, alpha, psi, angle)?;
             if (node.angle - angle).abs() < 1e-13 || b.alpha - a.alpha < 1e-14 {
                 return Some(Node { angle, ..node });
             }
             if (node.angle - angle) * (a.angle - angle) > 0.0 { a = node } else { b = node }
         }
-        let node = self.meridian.node(self.silhouette, 0.5 * (a.alpha + b.alpha), a.psi, angle)?;
+        let node = self.plane.node(self.silhouette, 0.5 * (a.alpha + b.alpha), a.psi, angle)?;
         Some(Node { angle, ..node })
     }
 
@@ -131,14 +131,13 @@ impl<'a> ScannedRays<'a> {
         let mut node = *self.nodes.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
         let h = 1e-5;
         for _ in 0..20 {
-            let ahead =
-                self.meridian.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
+            let ahead = self.plane.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
             let rate = (ahead.angle - node.angle) / h;
             let step = (angle - node.angle) / rate;
             if step.is_nan() || step.abs() >= 0.3 {
                 return None;
             }
-            node = self.meridian.node(self.silhouette, node.alpha + step, node.psi, angle)?;
+            node = self.plane.node(self.silhouette, node.alpha + step, node.psi, angle)?;
             if (node.angle - angle).abs() < 1e-12 {
                 return Some(Node { angle, ..node });
             }

@@ -1,4 +1,4 @@
-//! Meridians: the rays of one order that leave in one plane through the light's axis.
+//! Scattering planes: the rays of one order that leave in one plane through the light's axis.
 //!
 //! For an azimuth `φ₀` all rays of an order whose direction lies in the plane of `φ₀` form a curve on
 //! the emitting plane, from the axial ray to the rim. Along it the exit direction has only one
@@ -16,7 +16,7 @@ use crate::trace::{Exit, Tracer, transfer};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The rays of one order in one plane.
-pub struct Meridian<'a> {
+pub struct ScatteringPlane<'a> {
     pub tracer: &'a Tracer<'a>,
     pub order: u32,
     /// Azimuth of the plane.
@@ -28,7 +28,7 @@ pub struct Meridian<'a> {
     rotational: bool,
 }
 
-/// One ray of a meridian.
+/// One ray of a plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// Launch coordinate: `sin α` of the way from the axial ray to the rim.
@@ -48,8 +48,8 @@ pub const GRAZING: f64 = 1e-4;
 /// Largest turn of the launch azimuth between neighbouring nodes.
 const LARGEST_TURN: f64 = 0.25;
 
-impl<'a> Meridian<'a> {
-    /// Prepare the meridian of an azimuth; `centre` is the launch point of the order's axial ray.
+impl<'a> ScatteringPlane<'a> {
+    /// Prepare the plane of an azimuth; `centre` is the launch point of the order's axial ray.
     pub fn new(tracer: &'a Tracer<'a>, order: u32, azimuth: f64, centre: [f64; 2]) -> Self {
         let (sin, cos) = azimuth.sin_cos();
         Self {
@@ -144,9 +144,9 @@ impl<'a> Meridian<'a> {
         Node { alpha, psi, place, angle, exit }
     }
 
-    /// Follow the meridian from the axial ray to the rim in even steps of α; gaps are `None`.
+    /// Follow the plane from the axial ray to the rim in even steps of α; gaps are `None`.
     ///
-    /// Where the meridian crosses the axis again, rays of many azimuths leave in almost one direction
+    /// Where the plane crosses the axis again, rays of many azimuths leave in almost one direction
     /// and its branches are entangled, within `axis_gap` of the axis. So every stretch between
     /// crossings is followed from its own middle, where rays are nearly those of a sphere, to both
     /// sides, until the first node inside the gap.
@@ -154,7 +154,7 @@ impl<'a> Meridian<'a> {
         let mut nodes = vec![None; count];
         let stretches = self.stretches(count);
         for (j, &[from, seed, to]) in stretches.iter().enumerate() {
-            let way = Way { meridian: self, silhouette, count, axis_gap };
+            let way = Way { plane: self, silhouette, count, axis_gap };
             let start = if j == 0 { self.first_azimuth() } else { self.azimuth };
             let Some(first) = way.seed(seed, start, j > 0) else { continue };
             way.follow(&mut nodes, first, seed..to);
@@ -198,7 +198,7 @@ impl<'a> Meridian<'a> {
     }
 
     /// Search a ray of the plane at `α` over launch azimuths, for use beyond a crossing of the axis,
-    /// where the meridian may go on at quite another azimuth.
+    /// where the plane may go on at quite another azimuth.
     fn search(&self, silhouette: &Silhouette, alpha: f64, near: f64, slack: f64) -> Option<Node> {
         const PROBES: usize = 24;
         const REACH: f64 = 1.3;
@@ -273,9 +273,9 @@ impl<'a> Meridian<'a> {
     }
 }
 
-/// Following a meridian from node to node of a scan.
+/// Following a plane from node to node of a scan.
 struct Way<'m, 'a, 's> {
-    meridian: &'m Meridian<'a>,
+    plane: &'m ScatteringPlane<'a>,
     silhouette: &'s Silhouette<'s>,
     count: usize,
     axis_gap: f64,
@@ -284,7 +284,7 @@ struct Way<'m, 'a, 's> {
 impl Way<'_, '_, '_> {
     /// The node to start from, with the launch azimuth expected there.
     fn seed(&self, i: usize, azimuth: f64, search: bool) -> Option<Node> {
-        let (m, s) = (self.meridian, self.silhouette);
+        let (m, s) = (self.plane, self.silhouette);
         let alpha = m.alpha(i, self.count);
         let near = m.angle_on_sphere(alpha);
         let close = |node: &Node| !search || (node.angle - near).abs() < 0.5;
@@ -295,7 +295,7 @@ impl Way<'_, '_, '_> {
 
     /// Go from `first` over the nodes of a range; stop inside the gap about the axis.
     fn follow(&self, nodes: &mut [Option<Node>], first: Node, range: impl Iterator<Item = usize>) {
-        let (m, s) = (self.meridian, self.silhouette);
+        let (m, s) = (self.plane, self.silhouette);
         let (mut before, mut psi_rate) = (first, 0.0);
         for i in range {
             let alpha = m.alpha(i, self.count);
@@ -323,7 +323,7 @@ pub fn axial_ray(tracer: &Tracer, order: u32) -> [f64; 2] {
     if tracer.shape().rotational_symmetry() {
         return [0.0, 0.0];
     }
-    let probe = Meridian::new(tracer, order, 0.0, [0.0, 0.0]);
+    let probe = ScatteringPlane::new(tracer, order, 0.0, [0.0, 0.0]);
     let angle = if order % 2 == 1 { 0.0 } else { PI };
     probe.aim(angle, [0.0, 0.0]).map_or([0.0, 0.0], |(place, _)| place)
 }

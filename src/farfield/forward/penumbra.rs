@@ -5,14 +5,14 @@
 //! fades while reflection sets in. Each point of the outline contributes its sharp edge (the shadow
 //! itself, [`ForwardDiffraction`]) and `E` of its `edge_profile`: near the axis as an
 //! integral along the outline, farther out as the waves of the two points whose normals lie in the
-//! scattering plane. Rays well inside the edge stay with the meridian's plain segments.
+//! scattering plane. Rays well inside the edge stay with the plane's plain segments.
 
 use super::diffraction::{ForwardDiffraction, hankel_over_leading_term, ramp};
 use super::penumbra_layout::Layout;
-use super::penumbra_profile::{Edge, EdgeProfile, Values};
+use super::penumbra_profile::{Edge, PenumbraProfile, Values};
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
-use crate::farfield::branch::window::Taper;
-use crate::farfield::deflection::scattering_plane::Meridian;
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::scattering_plane::ScatteringPlane;
 use crate::farfield::direction::Direction;
 use crate::math::gauss_legendre;
 use crate::math::half_turn::shares;
@@ -36,10 +36,10 @@ struct OutlinePoint {
 
 /// The edge wave of one particle and wavelength.
 #[derive(Clone, Debug)]
-pub struct EdgeWave {
+pub struct Penumbra {
     layout: Layout,
     /// By azimuth of the normal, even over a half-turn, both ends in; one where all are equal.
-    profiles: Vec<EdgeProfile>,
+    profiles: Vec<PenumbraProfile>,
     outline: Vec<OutlinePoint>,
 }
 
@@ -49,7 +49,7 @@ const STENCIL: usize = 6;
 /// Points of the outline in the integral near the axis: enough for 20 lobes.
 const OUTLINE_POINTS: usize = 160;
 
-impl EdgeWave {
+impl Penumbra {
     /// `None` where a reflected ray near the edge is missing.
     pub fn new(tracer: &Tracer, shadow: &ForwardDiffraction, size_parameter: f64) -> Option<Self> {
         let layout = Layout::new(size_parameter);
@@ -57,9 +57,9 @@ impl EdgeWave {
         let last = if tracer.shape().rotational_symmetry() { 0 } else { HALF_TURN_STEPS };
         let profile = |j: usize| {
             let azimuth = PI * j as f64 / last.max(1) as f64;
-            let meridian = Meridian::new(tracer, 0, azimuth, [0.0; 2]);
+            let plane = ScatteringPlane::new(tracer, 0, azimuth, [0.0; 2]);
             let [_, _, outline_radius] = shadow.support_at(azimuth);
-            EdgeProfile::new(&meridian, &silhouette, &layout, outline_radius)
+            PenumbraProfile::new(&plane, &silhouette, &layout, outline_radius)
         };
         let profiles = (0..=last).into_par_iter().map(profile).collect::<Option<Vec<_>>>()?;
         let mut wave = Self { layout, profiles, outline: Vec::new() };
@@ -68,7 +68,7 @@ impl EdgeWave {
     }
 
     /// The weight with which the integral stands for the ray of an exit angle.
-    pub fn taper(&self) -> Taper {
+    pub fn taper(&self) -> Window {
         self.layout.taper
     }
 
@@ -87,12 +87,12 @@ impl EdgeWave {
     }
 
     /// The profile of any azimuth of the normal.
-    fn profile(&self, azimuth: f64) -> EdgeProfile {
+    fn profile(&self, azimuth: f64) -> PenumbraProfile {
         if self.profiles.len() == 1 {
             return self.profiles[0].clone();
         }
         let knots = vec![[[Complex64::default(); 4]; 2]; self.layout.angles.len()];
-        let mut sum = EdgeProfile { edge: Edge::default(), outline_radius: 0.0, knots };
+        let mut sum = PenumbraProfile { edge: Edge::default(), outline_radius: 0.0, knots };
         for share in shares::<STENCIL>(azimuth, self.profiles.len()) {
             let (weight, from) = (share.weight, &self.profiles[share.index]);
             sum.edge.support += weight * from.edge.support;
@@ -199,7 +199,7 @@ impl EdgeWave {
         points.map(|point| STRIDE as f64 * point.length * at(&point.edge)).sum()
     }
 
-    /// The whole edge wave beyond the axis, sharp shadow included, on the meridian of an azimuth:
+    /// The whole edge wave beyond the axis, sharp shadow included, on the plane of an azimuth:
     /// a segment on the side of its edge, and one across the axis. Knots are the same for all.
     pub fn segments(&self, azimuth: f64) -> Vec<Segment> {
         let profile = self.profile(azimuth);
@@ -215,7 +215,7 @@ impl EdgeWave {
 
     /// The wave of a point of the outline at knot `k`, against that of the ray reflected there (on
     /// the dark side, of a ray along the edge).
-    fn knot(&self, profile: &EdgeProfile, k: usize) -> Knot {
+    fn knot(&self, profile: &PenumbraProfile, k: usize) -> Knot {
         let x = self.layout.size_parameter;
         let angle = self.layout.angles[k];
         let (edge, shift) = (&profile.edge, self.layout.shift);

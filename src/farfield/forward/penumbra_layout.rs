@@ -1,7 +1,7 @@
 //! Where the edge wave is known: the taper from rays to the integral, the integral's nodes by impact,
 //! and the angles of its knots; the same for all normals of an outline.
 
-use crate::farfield::branch::window::Taper;
+use crate::farfield::branch::window::Window;
 use crate::math::gauss_legendre;
 use std::f64::consts::{PI, TAU};
 
@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 pub(crate) struct Layout {
     pub size_parameter: f64,
     /// Weight of the integral, by the cosine of the grazing angle.
-    pub taper: Taper,
+    pub taper: Window,
     /// Nodes of the integral by impact over the radius of the circle along the light, the cosine of
     /// the grazing angle there, on both sides of the edge, with their weights.
     pub nodes: Vec<(f64, f64)>,
@@ -37,7 +37,7 @@ impl Layout {
         let full = (1.0 - WAVE_ZONES * wave_zone).max(0.3);
         let fresnel_zone = ((1.0 - full * full).sqrt() / (2.0 * x)).sqrt();
         let start = (full - FRESNEL_ZONES * fresnel_zone).max(0.5 * full);
-        let taper = Taper { start, full };
+        let taper = Window { start, full };
         let tunnel = TUNNEL * x.powf(-2.0 / 3.0);
         let inner = 2.0 * start.acos();
         let axial = near_axis(x);
@@ -65,7 +65,7 @@ impl Layout {
 
 /// Gauss–Legendre nodes from the start of the taper to the edge and from there to where tunnelling
 /// ends, for a phase that changes by at most `rate` per length.
-fn nodes(taper: Taper, tunnel: f64, rate: f64) -> Vec<(f64, f64)> {
+fn nodes(taper: Window, tunnel: f64, rate: f64) -> Vec<(f64, f64)> {
     /// How far inside the start of the taper the integral begins, in lengths from there to the
     /// edge: on deformed particles the ray of that grazing angle may lie there.
     const INWARD: f64 = 0.3;

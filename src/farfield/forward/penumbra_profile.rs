@@ -10,8 +10,8 @@
 //! series this is the sum of the terms "diffraction" and "p = 0" (Nussenzveig 1969, sec. 4).
 
 use super::penumbra_layout::Layout;
-use crate::farfield::branch::window::Taper;
-use crate::farfield::deflection::scattering_plane::Meridian;
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::scattering_plane::ScatteringPlane;
 use crate::farfield::impact_integral::integrand::Integrand;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::interpolate::lagrange;
@@ -59,7 +59,7 @@ impl Edge {
 
 /// `E` of one normal, at the angles of the layout, against the carrier `exp(-ix shift ϑ)`.
 #[derive(Clone, Debug)]
-pub(crate) struct EdgeProfile {
+pub(crate) struct PenumbraProfile {
     pub edge: Edge,
     /// Radius of curvature of the outline, as the light sees it.
     pub outline_radius: f64,
@@ -75,22 +75,22 @@ const DEGREE: usize = 7;
 /// Share of the grazing sines that is left out next to the edge.
 const SPARE: f64 = 0.14;
 /// Wave zones from the edge over which ray data come to hold.
-const RAYS_HOLD: Taper = Taper { start: 0.0, full: 4.0 };
+const RAYS_HOLD: Window = Window { start: 0.0, full: 4.0 };
 
-impl EdgeProfile {
+impl PenumbraProfile {
     /// For an outline of this radius of curvature there, as the light sees it. `None` where a
     /// reflected ray is missing, or nothing finite comes out.
     pub(crate) fn new(
-        meridian: &Meridian,
+        plane: &ScatteringPlane,
         silhouette: &Silhouette,
         layout: &Layout,
         outline_radius: f64,
     ) -> Option<Self> {
         let x = layout.size_parameter;
-        let edge = edge_of(meridian, silhouette)?;
-        let channels = channels(meridian, silhouette, layout, &edge)?;
+        let edge = edge_of(plane, silhouette)?;
+        let channels = channels(plane, silhouette, layout, &edge)?;
         let integrand =
-            integrand(&channels, [edge.radius, outline_radius], meridian.tracer.index(), layout)?;
+            integrand(&channels, [edge.radius, outline_radius], plane.tracer.index(), layout)?;
         let knot = |&angle: &f64| {
             let sums = integrand.sum(angle, -layout.shift * angle, x);
             let slope = |e: usize| -Complex64::i() * x * (sums[1][e] - layout.shift * sums[0][e]);
@@ -102,9 +102,9 @@ impl EdgeProfile {
     }
 }
 
-/// Rays reflected in the plane of a meridian, found one after the other from large angles to small.
+/// Rays reflected in one plane, found one after the other from large angles to small.
 struct Reflections<'m, 'a> {
-    meridian: &'m Meridian<'a>,
+    plane: &'m ScatteringPlane<'a>,
     silhouette: &'m Silhouette<'m>,
     /// Launch azimuth of the ray before, and its share of the way to the rim over that of a sphere.
     azimuth: f64,
@@ -112,8 +112,8 @@ struct Reflections<'m, 'a> {
 }
 
 impl<'m, 'a> Reflections<'m, 'a> {
-    fn new(meridian: &'m Meridian<'a>, silhouette: &'m Silhouette<'m>) -> Self {
-        Self { meridian, silhouette, azimuth: meridian.azimuth, share: 1.0 }
+    fn new(plane: &'m ScatteringPlane<'a>, silhouette: &'m Silhouette<'m>) -> Self {
+        Self { plane, silhouette, azimuth: plane.azimuth, share: 1.0 }
     }
 
     /// The launch point and the ray reflected by an angle.
@@ -122,7 +122,7 @@ impl<'m, 'a> Reflections<'m, 'a> {
         let rim = |azimuth: f64| self.silhouette.radius(azimuth);
         let reach = rim(self.azimuth) * (self.share * cos).min(0.5 + 0.5 * cos);
         let (sin_a, cos_a) = self.azimuth.sin_cos();
-        let ([u, v], exit) = self.meridian.aim(angle, [reach * cos_a, reach * sin_a])?;
+        let ([u, v], exit) = self.plane.aim(angle, [reach * cos_a, reach * sin_a])?;
         self.azimuth = v.atan2(u);
         self.share = u.hypot(v) / rim(self.azimuth) / cos;
         Some(([u, v], exit))
@@ -130,17 +130,17 @@ impl<'m, 'a> Reflections<'m, 'a> {
 }
 
 /// Where the edge lies: no ray touches it, so that those close by must tell.
-fn edge_of(meridian: &Meridian, silhouette: &Silhouette) -> Option<Edge> {
+fn edge_of(plane: &ScatteringPlane, silhouette: &Silhouette) -> Option<Edge> {
     const STEP: f64 = 0.08;
-    let mut rays = Reflections::new(meridian, silhouette);
+    let mut rays = Reflections::new(plane, silhouette);
     let mut meetings = Vec::new();
     let mut points = [const { Vec::new() }; 3];
     for k in (1..=6).rev() {
         let angle = STEP * f64::from(k);
         let ([u, v], exit) = rays.at(angle)?;
-        meridian.tracer.trace_with_meetings(u, v, 0, &mut meetings)?;
-        let impact = exit.reference.dot(meridian.frame(angle).1);
-        let depth = meridian.tracer.shape().entry(u, v)?;
+        plane.tracer.trace_with_meetings(u, v, 0, &mut meetings)?;
+        let impact = exit.reference.dot(plane.frame(angle).1);
+        let depth = plane.tracer.shape().entry(u, v)?;
         for (points, value) in points.iter_mut().zip([impact, depth, meetings.first()?.radius]) {
             points.push((angle, value));
         }
@@ -159,9 +159,9 @@ struct Seen {
 }
 
 impl Seen {
-    fn new(meridian: &Meridian, edge: &Edge, angle: f64, exit: &Exit<f64>) -> Self {
+    fn new(plane: &ScatteringPlane, edge: &Edge, angle: f64, exit: &Exit<f64>) -> Self {
         let aside = edge.support - edge.radius;
-        let (_, growing) = meridian.frame(angle);
+        let (_, growing) = plane.frame(angle);
         let (sin, cos) = angle.sin_cos();
         let impact = exit.reference.dot(growing) - aside * cos + edge.depth * sin;
         let path = exit.path + aside * sin + edge.depth * (cos - 1.0) + impact * angle;
@@ -169,7 +169,7 @@ impl Seen {
         let sin_equal = (1.0 - cos_equal * cos_equal).max(0.0).sqrt();
         let turned = aside * sin + edge.depth * cos;
         let moved = |k: usize| exit.dx[k].dot(growing) + turned * exit.ds[k].dot(growing);
-        let across = |k: usize| exit.ds[k].dot(meridian.across());
+        let across = |k: usize| exit.ds[k].dot(plane.across());
         let minor = moved(0) * across(1) - moved(1) * across(0);
         let outside = 2.0 * edge.radius * Grazing::path_outside(sin_equal);
         Self { cos: cos_equal, path: path + outside, spreading: sin / minor.abs() }
@@ -178,13 +178,13 @@ impl Seen {
 
 /// Real rays by `√v`, the grazing sine on the circle at the same impact.
 fn channels(
-    meridian: &Meridian,
+    plane: &ScatteringPlane,
     silhouette: &Silhouette,
     layout: &Layout,
     edge: &Edge,
 ) -> Option<Channels> {
-    let mut rays = Reflections::new(meridian, silhouette);
-    let mut seen = |angle: f64| Some(Seen::new(meridian, edge, angle, &rays.at(angle)?.1));
+    let mut rays = Reflections::new(plane, silhouette);
+    let mut seen = |angle: f64| Some(Seen::new(plane, edge, angle, &rays.at(angle)?.1));
     let sine_on_circle = |ray: &Seen| (1.0 - ray.cos * ray.cos).sqrt();
     let deepest = sine_on_circle(&seen(2.0 * layout.taper.start.acos())?);
     let (from, to) = (SPARE * deepest, deepest);

@@ -2,7 +2,7 @@
 //! reflection is computed beside it.
 
 use super::diffraction::ForwardDiffraction;
-use super::penumbra::EdgeWave;
+use super::penumbra::Penumbra;
 use super::penumbra_layout::near_axis;
 use crate::farfield::direction::Direction;
 use crate::optics::AmplitudeMatrix;
@@ -12,8 +12,8 @@ use num_complex::Complex64;
 #[derive(Clone, Copy, Debug)]
 pub struct ForwardWave<'a> {
     pub shadow: &'a ForwardDiffraction,
-    /// The edge wave; beyond the axis it is among the meridians of order 0.
-    pub edge: Option<&'a EdgeWave>,
+    /// The edge wave; beyond the axis it is among the planes of order 0.
+    pub edge: Option<&'a Penumbra>,
     pub size_parameter: f64,
 }
 
@@ -26,8 +26,8 @@ impl ForwardWave<'_> {
         }
     }
 
-    /// What is still to be added to the waves of meridians in any direction.
-    pub fn beside_meridians(&self, direction: &Direction) -> AmplitudeMatrix {
+    /// What is still to be added to the waves of planes in any direction.
+    pub fn beside_planes(&self, direction: &Direction) -> AmplitudeMatrix {
         match self.edge {
             Some(_) if direction.theta < near_axis(self.size_parameter) => self.peak(direction),
             Some(_) => AmplitudeMatrix::default(),

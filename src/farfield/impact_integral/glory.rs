@@ -1,6 +1,6 @@
 //! Waves about the axis of a rotationally symmetric scene.
 //!
-//! Rays of all azimuths that leave along the axis meet there, and the two waves of a meridian's plane
+//! Rays of all azimuths that leave along the axis meet there, and the two waves of a plane
 //! grow like `1/√sin θ`. The ring of rays they come from has the wave
 //! `∮ dα M(α) exp(-ixβγ cos(α - φ))`, so that the two waves `e^{∓i(z - π/4)}/√(2πz)`, `z = xβγ`, of an
 //! impact `β` become Bessel functions of the angle `γ` from the axis: `J₀ - J₁/z` for the
@@ -9,8 +9,8 @@
 
 use super::integrand::Integrand;
 use super::rays::{Prefactor, RAYS, Rays};
-use crate::farfield::branch::window::Taper;
-use crate::farfield::deflection::curve::Arc;
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::scattering_plane::Node;
 use crate::optics::AmplitudeMatrix;
 use num_complex::Complex64;
@@ -18,7 +18,7 @@ use std::f64::consts::{PI, TAU};
 
 /// The wave of one order about one axis.
 #[derive(Clone, Debug)]
-pub struct AxisWave {
+pub struct Glory {
     forward: bool,
     /// Angle from the axis up to which this holds.
     reach: f64,
@@ -29,7 +29,7 @@ pub struct AxisWave {
 /// Fresnel zones of a ray within the tapers of a crossing.
 const FRESNEL_ZONES: f64 = 12.0;
 
-impl AxisWave {
+impl Glory {
     /// About the axis at the unwrapped angle `number · π`, from an integrand over impacts.
     pub(crate) fn new(
         integrand: &Integrand,
@@ -51,11 +51,11 @@ impl AxisWave {
         Self { forward, reach, rings: integrand.samples().map(ring).collect() }
     }
 
-    /// Of the rays of a meridian that cross the axis between two rays, both `reach` away from it.
+    /// Of the rays of a plane that cross the axis between two rays, both `reach` away from it.
     /// Others count less and less, up to the launch points `limits`; `share` of each launch point is
     /// left to this wave. `None` where rays are missing.
     pub(crate) fn of_crossing(
-        arc: &Arc,
+        curve: &DeflectionCurve,
         share: impl Fn(f64) -> f64,
         [a, b]: [&Node; 2],
         limits: [f64; 2],
@@ -68,15 +68,15 @@ impl AxisWave {
         let taper = FRESNEL_ZONES / (x * rate).sqrt();
         let from = inner - taper.min(0.9 * (inner - limits[0]));
         let to = outer + taper.min(0.9 * (limits[1] - outer));
-        let rays = Rays::between(arc, [from, to], RAYS - 1)?;
-        let [rise, fall] = [Taper { start: from, full: inner }, Taper { start: outer, full: to }];
+        let rays = Rays::between(curve, [from, to], RAYS - 1)?;
+        let [rise, fall] = [Window { start: from, full: inner }, Window { start: outer, full: to }];
         let weight = |sin: f64| rise.weight(sin) * (1.0 - fall.weight(sin)) * share(sin);
         let axis = PI * number as f64;
-        let off = |sin: f64| Some((arc.ray_at(sin)?.angle - axis).abs());
+        let off = |sin: f64| Some((curve.ray_at(sin)?.angle - axis).abs());
         let spread = off(from)?.max(off(to)?) + reach;
         let integrand =
-            rays.integrand(weight, to, 1.5 * spread, arc.meridian().tracer.index(), x)?;
-        let before = Prefactor::between(arc, [inner, inner + 0.01 * (outer - inner)], x)?;
+            rays.integrand(weight, to, 1.5 * spread, curve.plane().tracer.index(), x)?;
+        let before = Prefactor::between(curve, [inner, inner + 0.01 * (outer - inner)], x)?;
         Some(Self::new(&integrand, &before, number, reach, x))
     }
 

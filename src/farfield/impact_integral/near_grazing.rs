@@ -2,8 +2,8 @@
 //!
 //! For orders from 4 on, the bow is made so close to the rim that its two rays, the last ray that
 //! leaves, and the penumbra beyond it lie within one wave zone: no formula for two rays holds. But
-//! along a meridian the wave is an integral over the exit rays' impact `β` (distance of the ray
-//! from the centre, in the meridian's plane),
+//! along a plane the wave is an integral over the exit rays' impact `β` (distance of the ray
+//! from the centre, in the plane),
 //! `S(ϑ) = -ix √(x/2π) e^{-iπm/2 ∓ iπ/4} ∫ dβ a(β) exp(ix [L(β) - βϑ])`, `L = W + βϑ(β)`,
 //! `a = T √(1/|∂(β, s⊥)/∂(u, v)|)`,
 //! whose points of stationary phase are the rays; it stays true where they merge, and its integrand
@@ -14,33 +14,37 @@
 //! over partial waves as an integral); measured against it, it errs by 0.05 % at x = 5000.
 //!
 //! The integral takes over from single rays with a smooth weight: rays well inside the rim are left
-//! to the plain segments of the meridian, with the weight's complement.
+//! to the plain segments of the plane, with the weight's complement.
 
-use super::glory::AxisWave;
+use super::glory::Glory;
 use super::integrand::{Integrand, Sums};
-use super::near_grazing_layout::RimLayout;
+use super::near_grazing_layout::NearGrazingLayout;
 use super::rays::{Prefactor, Rays};
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
-use crate::farfield::deflection::curve::Arc;
+use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// The integral over rays near the rim of one meridian.
-pub(crate) struct RimWave<'l> {
-    layout: &'l RimLayout,
+/// The integral over rays near the rim of one plane.
+pub(crate) struct NearGrazing<'l> {
+    layout: &'l NearGrazingLayout,
     rays: Rays,
     before: Prefactor,
     integrand: Integrand,
     size_parameter: f64,
 }
 
-impl<'l> RimWave<'l> {
+impl<'l> NearGrazing<'l> {
     /// `None` where its rays cannot be followed that far.
-    pub(crate) fn new(arc: &Arc, layout: &'l RimLayout, size_parameter: f64) -> Option<Self> {
+    pub(crate) fn new(
+        curve: &DeflectionCurve,
+        layout: &'l NearGrazingLayout,
+        size_parameter: f64,
+    ) -> Option<Self> {
         // the phase's slope strays beyond the knots by this at most
         const STRAY: f64 = 0.5;
-        let index = arc.meridian().tracer.index();
-        let rays = layout.rays(arc)?;
+        let index = curve.plane().tracer.index();
+        let rays = layout.rays(curve)?;
         let offsets = || layout.knots.iter().flatten().map(|knot| knot[0]);
         let (low, high) = (offsets().fold(f64::MAX, f64::min), offsets().fold(f64::MIN, f64::max));
         let end = rays.end_of_tunnel(index, size_parameter);
@@ -48,7 +52,7 @@ impl<'l> RimWave<'l> {
         let weight = |sin: f64| layout.weight(sin);
         let integrand = rays.integrand(weight, end, spread, index, size_parameter)?;
         let ahead = layout.start + 0.01 * (layout.full - layout.start);
-        let before = Prefactor::between(arc, [layout.start, ahead], size_parameter)?;
+        let before = Prefactor::between(curve, [layout.start, ahead], size_parameter)?;
         Some(Self { layout, rays, before, integrand, size_parameter })
     }
 
@@ -76,14 +80,14 @@ impl<'l> RimWave<'l> {
     }
 
     /// The wave about each axis between its knots.
-    pub(crate) fn about_axes(&self, reach: f64) -> Vec<AxisWave> {
+    pub(crate) fn about_axes(&self, reach: f64) -> Vec<Glory> {
         let anchor = self.rays.anchor(self.layout.bow).angle;
         let all = || self.layout.knots.iter().flatten().map(|knot| (anchor + knot[0]) / PI);
         let (low, high) = all().fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(a), h.max(a)));
         let spare = 1.5 * reach / PI;
         let (from, to) = ((low - spare).ceil() as i64, (high + spare).floor() as i64);
         let wave = |number: i64| {
-            AxisWave::new(&self.integrand, &self.before, number, reach, self.size_parameter)
+            Glory::new(&self.integrand, &self.before, number, reach, self.size_parameter)
         };
         (from..=to).map(wave).collect()
     }

@@ -1,14 +1,14 @@
 //! Where the integral over rays near the rim takes over, and the angles at which its wave is known; the
-//! same for all meridians of an order.
+//! same for all planes of an order.
 
 use super::rays::{RAYS, Rays};
-use crate::farfield::branch::window::Taper;
-use crate::farfield::deflection::curve::Arc;
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::curve::DeflectionCurve;
 use std::f64::consts::{PI, TAU};
 
-/// Where the integral takes over, and the knots of its wave; common to all meridians of an order.
+/// Where the integral takes over, and the knots of its wave; common to all planes of an order.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RimLayout {
+pub struct NearGrazingLayout {
     /// Launch points `sin α` at which the weight leaves 0 and reaches 1.
     pub start: f64,
     pub full: f64,
@@ -60,13 +60,13 @@ fn deviation(index: f64, order: u32, b: f64) -> f64 {
 }
 
 /// Start and end of the taper, and the bow's ray, for a particle like a sphere, deformed so much that rays of this order
-/// stray by `tangle`; rays in it keep farther than `axis_gap` from the axis. `None` where the
+/// stray by `caustic_disorder`; rays in it keep farther than `axis_gap` from the axis. `None` where the
 /// integral would reach too far inside, or too little is left for the taper.
 pub fn taper(
     index: f64,
     order: u32,
     size_parameter: f64,
-    tangle: f64,
+    caustic_disorder: f64,
     axis_gap: f64,
     rotational: bool,
 ) -> Option<[f64; 3]> {
@@ -79,7 +79,7 @@ pub fn taper(
     let b = bow(index, order).filter(|_| order >= first)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
-    let mut full = b - AIRY_WIDTHS * airy - tangle;
+    let mut full = b - AIRY_WIDTHS * airy - caustic_disorder;
     if rotational {
         full = below_axis(index, order, full, AXIS_GAPS * axis_gap);
     }
@@ -119,7 +119,7 @@ fn clear_of_axis(index: f64, order: u32, bow: f64, gap: f64) -> Option<f64> {
     clear.last().copied()
 }
 
-impl RimLayout {
+impl NearGrazingLayout {
     /// A layout without knots yet. Where nothing depends on azimuth, path and angles are analytic in
     /// the launch point to the rim and beyond; else only nearly so, and low degrees must do.
     pub fn new([start, full, bow]: [f64; 3], rotational: bool) -> Self {
@@ -145,26 +145,26 @@ impl RimLayout {
         Self { knots: self.knots.iter().map(twice).collect(), ..self.clone() }
     }
 
-    /// Real rays of a meridian from the start of the taper to the last that leaves.
-    pub(crate) fn rays(&self, arc: &Arc) -> Option<Rays> {
-        let to = arc.last_ray().alpha.sin() - self.spare * (1.0 - self.start);
-        Rays::between(arc, [self.start, to], self.degree)
+    /// Real rays of a plane from the start of the taper to the last that leaves.
+    pub(crate) fn rays(&self, curve: &DeflectionCurve) -> Option<Rays> {
+        let to = curve.last_ray().alpha.sin() - self.spare * (1.0 - self.start);
+        Rays::between(curve, [self.start, to], self.degree)
     }
 
     /// Weight of the integral for a launch point `sin α`.
     pub fn weight(&self, sin: f64) -> f64 {
-        Taper { start: self.start, full: self.full }.weight(sin)
+        Window { start: self.start, full: self.full }.weight(sin)
     }
 
-    /// Spread knots that serve all arcs of an order: from the ray at `start` past the bow, as far as
+    /// Spread knots that serve all curves of an order: from the ray at `start` past the bow, as far as
     /// its dark side reaches. `None` where they would reach the axis, where waves from all azimuths
     /// meet.
     pub fn spread_knots(
         &mut self,
-        arcs: &[&Arc],
+        curves: &[&DeflectionCurve],
         axis_gap: f64,
         index: f64,
-        tangle: f64,
+        caustic_disorder: f64,
         x: f64,
     ) -> Option<()> {
         const DARK_ZETA: f64 = 7.5;
@@ -172,14 +172,14 @@ impl RimLayout {
         const LONGEST_DARK: f64 = 0.45;
         const FARTHEST_PENUMBRA: f64 = 0.5;
         if !self.rotational {
-            self.keeps_off_axis(arcs, axis_gap)?;
+            self.keeps_off_axis(curves, axis_gap)?;
         }
         let marks: Vec<Marks> =
-            arcs.iter().map(|arc| Marks::of(arc, self)).collect::<Option<_>>()?;
+            curves.iter().map(|curve| Marks::of(curve, self)).collect::<Option<_>>()?;
         let sense = marks[0].sense;
         let least = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MAX, f64::min);
         let most = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MIN, f64::max);
-        let order = arcs.first()?.meridian().order;
+        let order = curves.first()?.plane().order;
         let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
         // beyond the last ray its penumbra dies away with x^{1/3}
         let penumbra = (PENUMBRA * x.cbrt().recip()).min(FARTHEST_PENUMBRA);
@@ -187,7 +187,7 @@ impl RimLayout {
         let begin = start.min(least(|m| m.last) - penumbra);
         let bow_at = most(|m| m.farthest);
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
-        let spare = 0.1 * tangle + zone + x.powf(-2.0 / 3.0);
+        let spare = 0.1 * caustic_disorder + zone + x.powf(-2.0 / 3.0);
         let stretch = [begin, start, bow_at, bow_at + dark];
         let all = knots(stretch, sense, [self.start, self.bow], spare, x)?;
         self.knots = if self.rotational {
@@ -200,12 +200,12 @@ impl RimLayout {
     }
 
     /// `None` where rays in the taper leave too near the axis.
-    fn keeps_off_axis(&self, arcs: &[&Arc], axis_gap: f64) -> Option<()> {
-        let clear = |arc: &&Arc| {
-            let angle = arc.ray_at(self.start)?.angle;
+    fn keeps_off_axis(&self, curves: &[&DeflectionCurve], axis_gap: f64) -> Option<()> {
+        let clear = |curve: &&DeflectionCurve| {
+            let angle = curve.ray_at(self.start)?.angle;
             ((angle - (angle / PI).round() * PI).abs() > 0.7 * axis_gap).then_some(())
         };
-        arcs.iter().try_for_each(clear)
+        curves.iter().try_for_each(clear)
     }
 }
 
@@ -231,7 +231,7 @@ fn between_axes(knots: &[[f64; 2]], anchor: f64, gap: f64) -> Vec<Vec<[f64; 2]>>
     (half_turn(low)..=half_turn(high)).filter_map(run).collect()
 }
 
-/// The knots on the bow's side of the axis, on all meridians.
+/// The knots on the bow's side of the axis, on all planes.
 fn before_axis(mut knots: Vec<[f64; 2]>, marks: &[Marks]) -> Vec<[f64; 2]> {
     const NEAREST_AXIS: f64 = 0.03;
     for mark in marks {
@@ -252,7 +252,7 @@ fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
     h.cbrt() * x.powf(-2.0 / 3.0)
 }
 
-/// Angles on one meridian, from that of the anchor on, counted towards the bow.
+/// Angles on one plane, from that of the anchor on, counted towards the bow.
 struct Marks {
     /// Unwrapped angle of the anchor: where the integrand's phase stands still at the bow's impact.
     anchor: f64,
@@ -265,11 +265,11 @@ struct Marks {
 }
 
 impl Marks {
-    fn of(arc: &Arc, layout: &RimLayout) -> Option<Self> {
-        let first = arc.ray_at(layout.start)?.angle;
-        let [farthest, last] = arc.reaches(layout.start, layout.full)?;
+    fn of(curve: &DeflectionCurve, layout: &NearGrazingLayout) -> Option<Self> {
+        let first = curve.ray_at(layout.start)?.angle;
+        let [farthest, last] = curve.reaches(layout.start, layout.full)?;
         let sense = farthest.signum();
-        let anchor = layout.rays(arc)?.anchor(layout.bow).angle;
+        let anchor = layout.rays(curve)?.anchor(layout.bow).angle;
         let start = sense * (first - anchor);
         Some(Self {
             anchor,

@@ -1,11 +1,11 @@
-//! What the integral over rays near the rim needs along a meridian, as polynomials in the launch
+//! What the integral over rays near the rim needs along a plane, as polynomials in the launch
 //! point: path, impact, spreading, and how the ray meets the surface each time.
 //!
 //! Real rays give the polynomials; beyond the rim, where none leaves, they are continued by a few wave
 //! zones, and the coefficients of the curved interface ([`Grazing::whole`]) follow from them there.
 
 use super::integrand::Integrand;
-use crate::farfield::deflection::curve::Arc;
+use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::scattering_plane::Node;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::vec3::Vec3;
@@ -21,7 +21,7 @@ pub(crate) const TUNNEL: f64 = 4.0;
 /// Samples of the integrand per period of its phase.
 const SAMPLES_PER_PERIOD: f64 = 1.8;
 
-/// What the integral needs along a meridian, as polynomials in the launch point `sin α`.
+/// What the integral needs along a plane, as polynomials in the launch point `sin α`.
 pub(crate) struct Rays {
     channels: Vec<Chebyshev<1>>,
     order: usize,
@@ -58,9 +58,13 @@ pub(crate) struct Prefactor {
 
 impl Prefactor {
     /// For the rays from one launch point to another nearby, without a fold between.
-    pub(crate) fn between(arc: &Arc, [from, to]: [f64; 2], size_parameter: f64) -> Option<Self> {
-        let (first, ahead) = (arc.ray_at(from)?, arc.ray_at(to)?);
-        let impact = |node: &Node| node.exit.reference.dot(arc.meridian().frame(node.angle).1);
+    pub(crate) fn between(
+        curve: &DeflectionCurve,
+        [from, to]: [f64; 2],
+        size_parameter: f64,
+    ) -> Option<Self> {
+        let (first, ahead) = (curve.ray_at(from)?, curve.ray_at(to)?);
+        let impact = |node: &Node| node.exit.reference.dot(curve.plane().frame(node.angle).1);
         let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
         let focal_lines = f64::from(first.exit.focal_lines);
         let phase = -FRAC_PI_2 * (1.0 + focal_lines) - FRAC_PI_4 * turn;
@@ -92,17 +96,21 @@ impl Rays {
     }
 
     /// Trace real rays between two launch points.
-    pub(crate) fn between(arc: &Arc, [from, to]: [f64; 2], degree: usize) -> Option<Self> {
-        let meridian = arc.meridian();
-        let order = meridian.order as usize;
+    pub(crate) fn between(
+        curve: &DeflectionCurve,
+        [from, to]: [f64; 2],
+        degree: usize,
+    ) -> Option<Self> {
+        let plane = curve.plane();
+        let order = plane.order as usize;
         let points = chebyshev::points(RAYS, from, to);
         let mut meetings: Vec<Meeting> = Vec::new();
         let mut rows = Vec::with_capacity(RAYS);
         for sin in points {
-            let node = arc.ray_at(sin)?;
+            let node = curve.ray_at(sin)?;
             let [u, v] = node.place;
-            meridian.tracer.trace_with_meetings(u, v, meridian.order, &mut meetings)?;
-            rows.push(row(arc, &node, &meetings)?);
+            plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings)?;
+            rows.push(row(curve, &node, &meetings)?);
         }
         unwrap_turns(&mut rows, MEETINGS, order);
         let channels = (0..rows[0].len())
@@ -225,13 +233,13 @@ fn turn(fields: &mut [[Complex64; 2]; 2], angle: f64) {
 }
 
 /// All channels of one ray.
-fn row(arc: &Arc, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
-    let meridian = arc.meridian();
-    let (_, growing) = meridian.frame(node.angle);
-    let across = meridian.across();
+fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
+    let plane = curve.plane();
+    let (_, growing) = plane.frame(node.angle);
+    let across = plane.across();
     let exit = &node.exit;
     let impact = exit.reference.dot(growing);
-    let minor = meridian.spread_across(exit, node.angle);
+    let minor = plane.spread_across(exit, node.angle);
     let path = exit.path + impact * node.angle + paths_outside(meetings)?;
     let spreading = node.angle.sin().abs() / minor.abs();
     let mut row = vec![impact, path, spreading, path_inside(meetings)?];

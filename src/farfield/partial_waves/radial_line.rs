@@ -8,7 +8,7 @@
 //! of the waves outside ([`Grazing::path_outside`]), directions turned back by the grazing angles.
 
 use super::radial_rays::{Way, path_on_sphere, path_series};
-use crate::farfield::branch::window::Taper;
+use crate::farfield::branch::window::Window;
 use crate::farfield::impact_integral::rays::{TUNNEL, transfer};
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::vec3::Vec3;
@@ -27,7 +27,7 @@ const SPARE: f64 = 0.02;
 /// Orders from this on hold next to nothing in rays that meet the surface steeply, and those stray far
 /// on deformed particles: they rise between two launch points.
 const FIRST_OF_THE_RIM: u32 = 4;
-const RISE: Taper = Taper { start: 0.45, full: 0.65 };
+const RISE: Window = Window { start: 0.45, full: 0.65 };
 /// How far the phase of the density may be off, times 4.
 const LARGEST_TURN: f64 = 1.0;
 /// Least growth of the impact along the line.
@@ -48,7 +48,7 @@ const MEETINGS: usize = 11;
 
 /// The line of launch points at one azimuth; its coordinate is a sphere's angle inside, `τ`, with the
 /// launch point at `s = n sin τ` of the way from the centre to the rim.
-pub(crate) struct LaunchLine {
+pub(crate) struct RadialLine {
     channels: Vec<Chebyshev<1>>,
     order: usize,
     azimuth: f64,
@@ -122,7 +122,7 @@ pub(crate) fn central_ray(
     None
 }
 
-impl LaunchLine {
+impl RadialLine {
     /// `None` where rays cannot be followed.
     pub(crate) fn new(
         tracer: &Tracer,

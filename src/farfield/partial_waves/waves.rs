@@ -13,8 +13,8 @@
 //! rings of an `l` together are Legendre's functions, and the sum is the Debye term with its coefficients
 //! in the WKB form, with impacts beyond the rim where waves tunnel ([`crate::farfield::impact_integral::near_grazing`]).
 
-use super::radial_line::{LaunchLine, Ring, central_ray};
-use crate::farfield::settings::FanSettings;
+use super::radial_line::{RadialLine, Ring, central_ray};
+use crate::farfield::settings::FarFieldSettings;
 use crate::math::spherical_harmonics::legendre;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
@@ -53,7 +53,7 @@ impl PartialWaves {
     /// The transmitted orders of a small particle, and the orders that are left to other methods.
     pub(crate) fn of_small_particles(
         tracer: &Tracer,
-        settings: &FanSettings,
+        settings: &FarFieldSettings,
     ) -> (Option<Self>, Vec<u32>) {
         let (x, all) = (settings.size_parameter, settings.orders);
         let first = all.partition_point(|&order| order == 0);
@@ -215,10 +215,10 @@ fn potentials(tracer: &Tracer, order: u32, x: f64) -> Option<Vec<Potentials>> {
     let centre = central_ray(tracer, &silhouette, order)?;
     let line = |k: usize, count: usize| {
         let azimuth = TAU * (k as f64 + 0.5) / count as f64;
-        LaunchLine::new(tracer, &silhouette, order, centre, azimuth, x)
+        RadialLine::new(tracer, &silhouette, order, centre, azimuth, x)
     };
     let probes = (0..PROBES).map(|k| line(k, PROBES)).collect::<Option<Vec<_>>>()?;
-    let twist = probes.iter().map(LaunchLine::largest_twist).fold(0.0, f64::max);
+    let twist = probes.iter().map(RadialLine::largest_twist).fold(0.0, f64::max);
     let count = 2 * (x * twist + 5.0 * x.sqrt() + 8.0).ceil() as usize;
     let lines: Option<Vec<(usize, Vec<Ring>)>> = (0..count)
         .into_par_iter()
