@@ -61,6 +61,16 @@ fn common(path: &Path, header: &TableHeader) -> Value {
         "shape": header.shape,
         "radius_um": number(header.radius * 1e6),
         "sun_elevation_deg": number(header.sun_elevation.to_degrees()),
+        "particles": header.bodies.as_ref().map(|bodies| json!({
+            "effective_radius_um": number(bodies.effective_radius * 1e6),
+            "effective_variance": number(bodies.effective_variance),
+            "mean_volume_m3": number(bodies.mean_volume),
+            "mean_projected_area_m2": number(bodies.mean_area),
+            "density_kg_m3": bodies.density.map(number),
+            "density_source": bodies.density.map(|_| &bodies.density_source),
+        })),
+        "averaged_over": header.averaging.words(),
+        "tolerance_asked": number(header.tolerance),
         "rotational_symmetry": header.rotational_symmetry,
         "forward_peak": format!("{:?}", header.forward_peak),
         "wavelength_nm": nanometres,
@@ -83,6 +93,8 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "index": [slab.index.re, slab.index.im],
             "scattering_cross_section_m2": slab.scattering_cross_section,
             "extinction_cross_section_m2": slab.extinction_cross_section,
+            "absorption_cross_section_m2": slab.absorption_cross_section,
+            "extinction_straight_ahead_m2": slab.forward_extinction,
             "asymmetry": slab.asymmetry,
             "sum": slab.sum(&header.axes),
             "sum_before_peak": slab.sum_before_peak,
@@ -90,6 +102,7 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "largest_per_sr": most,
             "error_estimate": number(slab.error_estimate),
             "error_estimate_by_band": number(slab.error_by_band),
+            "tolerance_met": slab.tolerance_met,
             "samples_beyond_two_rays": slab
                 .caustic_order
                 .as_ref()
