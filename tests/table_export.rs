@@ -199,7 +199,10 @@ fn extinction_per_mass_is_of_the_mean_volume_and_the_medium() {
                  effective_variance = 0.1 }\nmedium = { index = [1.333, 0.0] }";
     let (ext, told) = per_mass(folder, gamma, &[]);
     assert!((ext / 156.74 - 1.0).abs() < 1e-3, "{ext}");
-    assert!(told.contains("density 1000 kg/m³, assumed: the index 1.333 is that of water"), "{told}");
+    assert!(
+        told.contains("density 1000 kg/m³, assumed: the index 1.333 is that of water"),
+        "{told}"
+    );
     let (ext, _) = per_mass(folder, "radius_um = 10\nmedium = { index = [1.333, 0.0] }", &[]);
     assert!((ext / 152.149 - 1.0).abs() < 1e-4, "{ext}");
     let (ext, told) = per_mass(folder, "radius_um = 10\nmedium = \"ice\"", &[]);
@@ -290,7 +293,8 @@ fn a_sweep_of_distributions_makes_one_file() {
     close(&values(&path, "veff"), &[0.05, 0.1]);
     let ext = values(&path, "ext");
     let shadow = |reff: f64, v: f64| 2.2e-12 * 3.14159 * reff * reff * (1.0 - v) * (1.0 - 2.0 * v);
-    for (i, (reff, v)) in [(4.0, 0.05), (4.0, 0.1), (6.0, 0.05), (6.0, 0.1)].into_iter().enumerate() {
+    for (i, (reff, v)) in [(4.0, 0.05), (4.0, 0.1), (6.0, 0.05), (6.0, 0.1)].into_iter().enumerate()
+    {
         assert!((ext[i] / shadow(reff, v) - 1.0).abs() < 0.05, "{ext:?}");
     }
     export(folder, "radii.h5", &[&["--to", "libradtran"], &small[..]].concat());
@@ -310,8 +314,21 @@ fn the_sun_s_disc_is_never_applied_twice() {
     let keep = tempfile::tempdir().unwrap();
     let folder = keep.path();
     let table = [
-        "table", "-o", "t.h5", "--no-preview", "--shape", "sphere", "--radius-um", "40", "--method",
-        "mie", "--sun-disc", "limb-darkened", "--wavelengths-nm", "400:700:7", "--theta-deg",
+        "table",
+        "-o",
+        "t.h5",
+        "--no-preview",
+        "--shape",
+        "sphere",
+        "--radius-um",
+        "40",
+        "--method",
+        "mie",
+        "--sun-disc",
+        "limb-darkened",
+        "--wavelengths-nm",
+        "400:700:7",
+        "--theta-deg",
         "0:180:721",
     ];
     assert_eq!(gonio(folder, &table), (0, String::new()));
@@ -325,8 +342,9 @@ fn the_sun_s_disc_is_never_applied_twice() {
     let picture = |disc: bool| {
         fs::write(folder.join("p.toml"), format!("[sun]\nelevation_deg = 20\ndisc = {disc}\n"))
             .unwrap();
-        let render =
-            ["render", "p.toml", "--table", "t.h5", "-o", "p.png", "--width", "64", "--height", "48"];
+        let render = [
+            "render", "p.toml", "--table", "t.h5", "-o", "p.png", "--width", "64", "--height", "48",
+        ];
         let (code, told) = gonio(folder, &render);
         assert!(code == 0 && told.contains("the sun's disc is in the table already"), "{told}");
         fs::read(folder.join("p.png")).unwrap()
