@@ -142,16 +142,16 @@ pub struct CrossSections {
 
 impl CrossSections {
     /// From the share of light on the shadow that rays lose inside. Extinction is what the wave
-    /// straight ahead lacks (optical theorem) where diffraction and reflection are joined; else the
-    /// shadow, and once more with diffraction.
+    /// straight ahead lacks (optical theorem) where diffraction is part of it; else the shadow alone.
     fn new(plan: &Plan, far_field: &FarField, index: Complex64, absorbed: f64) -> Self {
         let area = far_field.silhouette().area();
         let wave = far_field.forward_wave();
         let beyond = wave.edge.filter(|_| index.im > 0.0).map_or(0.0, |e| e.absorption(index));
-        let extinction = match far_field.straight_forward() {
-            Some(s) => TAU * (s.s1 + s.s2).re / wave.size_parameter.powi(2),
-            None if plan.forward_diffraction => 2.0 * area,
-            None => area,
+        let extinction = if plan.forward_diffraction {
+            let s = far_field.straight_forward();
+            TAU * (s.s1 + s.s2).re / wave.size_parameter.powi(2)
+        } else {
+            area
         };
         Self { extinction, absorption: area * absorbed + beyond }
     }

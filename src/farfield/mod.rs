@@ -136,13 +136,15 @@ impl<'a> FarField<'a> {
         &self.silhouette
     }
 
-    /// Amplitudes straight forward of rays that a meridian stands for and of the edge wave, where
-    /// diffraction and external reflection are joined.
-    pub fn straight_forward(&self) -> Option<AmplitudeMatrix> {
-        let Source::Meridians(fan, _) = &self.source else { return None };
-        fan.edge()?;
-        let rays = fan.columns(&[0.0], &[0.0]).swap_remove(0)[0];
-        Some(rays + self.forward_wave().peak(&Direction::new(0.0, 0.0)))
+    /// The whole amplitude straight forward: rays of all orders and what diffraction adds.
+    ///
+    /// `S1 + S2` there is a trace, the same in the plane of every azimuth: that of a traced one is taken.
+    pub fn straight_forward(&self) -> AmplitudeMatrix {
+        let azimuth = match &self.source {
+            Source::Patches(..) => 0.0,
+            Source::Meridians(fan, _) => fan.checked_azimuth,
+        };
+        self.scatter(&[(0.0, azimuth)], true)[0]
     }
 
     /// All scattering angles at each of some azimuths in [0, π], without forward diffraction.
