@@ -3,7 +3,7 @@
 use super::UsageError;
 use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
-use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
+use gonio::phase_table::{Axes, ERROR_BANDS, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use gonio::series::lorenz_mie::Sphere;
@@ -205,6 +205,8 @@ fn slab(
         peak_share: 0.0,
         error_estimate: 1e-10,
         error_by_band: 1e-10,
+        error_by_direction: [1e-10; ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 

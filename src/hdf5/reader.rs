@@ -1,13 +1,13 @@
 //! Reading a table, whole or wavelength by wavelength.
 
 use super::raw_read::{OpenDataset, OpenFile};
-use super::record::{ENERGY, PLAIN, Record};
+use super::record::{BY_DIRECTION, ENERGY, LEFT_OUT, PLAIN, Record};
 use super::schema::{
     ELEMENTS, FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name,
 };
 use super::{TableError, damaged, foreign, invalid};
 use crate::phase_table::{
-    Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Axes, ERROR_BANDS, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -130,6 +130,8 @@ pub(super) fn slab_at(
         peak_share: record.peak_share,
         error_estimate: record.error_estimate,
         error_by_band: record.error_by_band,
+        error_by_direction: record.error_by_direction,
+        left_out: record.left_out,
     })
 }
 
@@ -281,6 +283,15 @@ pub(super) fn read_records(
         Some(_) => by_band?,
         None => vec![f64::NAN; wavelengths],
     };
+    let bands = ERROR_BANDS as u64;
+    let by_direction = match file.dataset(BY_DIRECTION)? {
+        Some(_) => read_field(file, BY_DIRECTION, leading, wavelengths, Some(bands))?,
+        None => vec![f64::NAN; wavelengths * ERROR_BANDS],
+    };
+    let left_out = match file.dataset(LEFT_OUT)? {
+        Some(_) => read_field(file, LEFT_OUT, leading, wavelengths, None)?,
+        None => vec![0.0; wavelengths],
+    };
     let record = |(i, energy)| Record {
         index: Complex64::new(real[i], imag[i]),
         scattering_cross_section: scattering[i],
@@ -290,6 +301,8 @@ pub(super) fn read_records(
         peak_share: share[i],
         error_estimate: error[i],
         error_by_band: by_band[i],
+        error_by_direction: std::array::from_fn(|k| by_direction[i * ERROR_BANDS + k]),
+        left_out: left_out[i],
         energy,
     };
     let budgets = read_budgets(file, leading, wavelengths)?;

@@ -115,8 +115,8 @@ impl Slab {
             return Err(invalid("asymmetry", self.asymmetry, "from −1 to 1"));
         }
         let expected = match header.forward_peak {
-            ForwardPeak::CellAverage => 1.0,
-            ForwardPeak::Separate => 1.0 - self.peak_share,
+            ForwardPeak::CellAverage => 1.0 - self.left_out,
+            ForwardPeak::Separate => 1.0 - self.peak_share - self.left_out,
             ForwardPeak::Point => return Ok(()),
         };
         let sum = self.sum(&header.axes);

@@ -13,7 +13,7 @@ use super::mean::{Ensemble, MeanError};
 use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
-use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
+use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, Quantity, Slab};
 use crate::scene::SunDisc;
 use crate::size_distribution::SizeDistribution;
 use ndarray::Array3;
@@ -125,6 +125,8 @@ pub fn sphere_slab(
         peak_share: 0.0,
         error_estimate: curves.error,
         error_by_band: curves.error,
+        error_by_direction: [curves.error; ERROR_BANDS],
+        left_out: 0.0,
     })
 }
 

@@ -78,6 +78,8 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         peak_share: 0.5,
         error_estimate: 0.01,
         error_by_band: 0.05,
+        error_by_direction: [0.05; gonio::phase_table::ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 
@@ -127,6 +129,8 @@ pub fn mie_table(
             peak_share: 0.0,
             error_estimate: 0.0,
             error_by_band: 0.0,
+            error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
+            left_out: 0.0,
         }
     });
     let slabs = slabs.collect();

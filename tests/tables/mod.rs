@@ -98,6 +98,8 @@ fn slab(
         peak_share: 0.0,
         error_estimate: 0.0,
         error_by_band: 0.0,
+        error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 
