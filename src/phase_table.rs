@@ -12,7 +12,7 @@ pub use validate::InvalidTable;
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
 use serde::Serialize;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Coordinates of a table. θ ascending in [0, π]; φ ascending in [0, 2π] (both ends may be there).
 #[derive(Clone, Debug, PartialEq)]
@@ -134,6 +134,23 @@ pub struct Slab {
     pub error_by_band: f64,
     /// The error that was asked for is met, by the method's own estimate; `None` where that has none.
     pub tolerance_met: Option<bool>,
+    /// The same by scattering angle: within 2° of each of [`error_theta`], over azimuth. NaN where not known.
+    pub error_by_direction: [f64; ERROR_BANDS],
+    /// Share of the scattered power in orders that a list left out; 0 where all that matter are in.
+    pub left_out: f64,
+}
+
+/// Bands of scattering angle for which an error is stated.
+pub const ERROR_BANDS: usize = 46;
+
+/// Middle of a band of scattering angle for which an error is stated, radians: 0°, 4°, … 180°.
+///
+/// ```
+/// use gonio::phase_table::{ERROR_BANDS, error_theta};
+/// assert_eq!(error_theta(ERROR_BANDS - 1), std::f64::consts::PI);
+/// ```
+pub fn error_theta(band: usize) -> f64 {
+    PI * band as f64 / (ERROR_BANDS - 1) as f64
 }
 
 /// A whole table in memory.

@@ -5,9 +5,9 @@
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
 use crate::farfield::fan::FanSettings;
-use crate::farfield::patch;
+use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::tabulate::{Tabulator, Values};
-use crate::farfield::{Direction, ErrorEstimate, FarField, gaussian_filter};
+use crate::farfield::{Direction, ErrorEstimate, FarField, gaussian_filter, patch};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{
@@ -15,7 +15,7 @@ use crate::phase_table::{
     TableHeader,
 };
 use crate::plan::{Engine, Plan, PlanError, Symmetry};
-use crate::scene::{Particle, Scene, SunDisc};
+use crate::scene::{Diffraction, Particle, Scene, SunDisc};
 use crate::series::SeriesError;
 use crate::series::debye::Term;
 use crate::series::mean::MeanError;
@@ -108,25 +108,36 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let sections = CrossSections::new(plan, &far_field, index, budget.absorbed);
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
+    let treatment = Treatment {
+        interference: scene.interference,
+        filter: (scene.diffraction == Diffraction::Gaussian)
+            .then(|| gaussian_filter::standard_deviation(plan.radius)),
+    };
+    let left_out = left_out(plan, &budget) * far_field.silhouette().area() / sections.scattering();
     let tabulator = Tabulator {
         theta: &scene.theta,
         size_parameter,
         quantity: scene.quantity,
         forward_peak: scene.forward_peak,
-        interference: scene.interference,
-        filter: (scene.diffraction == crate::scene::Diffraction::Gaussian)
-            .then(|| gaussian_filter::standard_deviation(plan.radius)),
+        interference: treatment.interference,
+        filter: treatment.filter,
         diffraction: plan.forward_diffraction.then(|| far_field.forward_wave()),
         scattering: sections.scattering(),
         shadow_area: far_field.silhouette().area(),
+        left_out,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
-    let estimate = far_field.error_estimate(&tracer(plan, index, size_parameter), budget.truncated);
-    let tolerance_met = estimate.as_ref().map(|error| error.weighted <= scene.tolerance);
-    let error_estimate =
-        estimate.unwrap_or(ErrorEstimate { weighted: scene.tolerance, by_band: scene.tolerance });
+    let error_estimate = if plan.checked {
+        let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
+        let tracer = tracer(plan, index, size_parameter);
+        far_field.error_estimate(&tracer, &squares, treatment.interference)
+    } else {
+        ErrorEstimate::UNKNOWN
+    };
+    let known = !error_estimate.weighted.is_nan();
+    let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
         wavelength,
         index,
@@ -135,7 +146,8 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         scattering_cross_section: sections.scattering() * plan.radius * plan.radius,
         extinction_cross_section: sections.extinction * plan.radius * plan.radius,
         absorption_cross_section: sections.absorption * plan.radius * plan.radius,
-        forward_extinction: in_table
+        // Patches have no sound wave straight ahead.
+        forward_extinction: (in_table && far_field.straight_forward().is_some())
             .then(|| straight_ahead(&far_field, computed[0]) * plan.radius * plan.radius),
         asymmetry,
         energy: Some(budget),
@@ -143,6 +155,8 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         peak_share,
         error_estimate: error_estimate.weighted,
         error_by_band: error_estimate.by_band,
+        error_by_direction: error_estimate.by_direction,
+        left_out,
         tolerance_met,
     })
 }
@@ -156,6 +170,65 @@ fn straight_ahead(far_field: &FarField, azimuth: f64) -> f64 {
     TAU * (whole.s1 + whole.s2).re / wave.size_parameter.powi(2)
 }
 
+/// What a table makes of the amplitudes of patches.
+#[derive(Clone, Copy, Debug)]
+struct Treatment {
+    interference: bool,
+    /// Standard deviation of the Gaussian filter, radians.
+    filter: Option<f64>,
+}
+
+/// Share of the light on the shadow that is in orders which a list leaves out. Where all that matter are
+/// summed the rest is below the tolerance, and counts as forward light.
+fn left_out(plan: &Plan, budget: &EnergyBudget) -> f64 {
+    if plan.complete {
+        return 0.0;
+    }
+    let other = |(order, share): (usize, &f64)| {
+        if plan.orders.contains(&(order as u32)) { 0.0 } else { *share }
+    };
+    let others: f64 = budget.left_by_order.iter().enumerate().map(other).sum();
+    others + budget.truncated + budget.totally_reflected
+}
+
+/// The measurement on the sphere of equal volume that a plan's method is judged by.
+fn sphere_check(
+    plan: &Plan,
+    index: Complex64,
+    size_parameter: f64,
+    treatment: Treatment,
+) -> SphereCheck<'_> {
+    let Treatment { interference, filter } = treatment;
+    SphereCheck {
+        index,
+        size_parameter,
+        orders: &plan.orders,
+        complete: plan.complete,
+        diffraction: plan.forward_diffraction,
+        tolerance: plan.tolerance,
+        method: match plan.engine {
+            Engine::Patches => CheckedMethod::Patches { rings: plan.rings, interference, filter },
+            _ => CheckedMethod::Meridians { deformed: !plan.shape.rotational_symmetry() },
+        },
+    }
+}
+
+/// Relative error of the intensity from 10° to 170°, weighted by intensity, that rays have on the sphere
+/// of equal volume.
+///
+/// # Errors
+/// What the exact series refuse.
+pub fn worth_of_rays(
+    plan: &Plan,
+    index: Complex64,
+    size_parameter: f64,
+) -> Result<ErrorEstimate, SeriesError> {
+    let treatment = Treatment { interference: true, filter: None };
+    let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
+    let far_field = far_field(plan, index, size_parameter, &[0.0], plan.forward_diffraction);
+    Ok(far_field.error_estimate(&tracer(plan, index, size_parameter), &squares, true))
+}
+
 /// Cross sections in units of the squared radius.
 #[derive(Clone, Copy, Debug)]
 pub struct CrossSections {
@@ -165,13 +238,14 @@ pub struct CrossSections {
 
 impl CrossSections {
     /// From the share of light on the shadow that rays lose inside. Extinction is what the wave
-    /// straight ahead lacks (optical theorem) where diffraction and reflection are joined; else the
-    /// shadow, and once more with diffraction.
+    /// straight ahead lacks (optical theorem) where diffraction is part of it, twice the shadow for
+    /// patches, which have no sound wave there; without diffraction the shadow alone.
     fn new(plan: &Plan, far_field: &FarField, index: Complex64, absorbed: f64) -> Self {
         let area = far_field.silhouette().area();
         let wave = far_field.forward_wave();
         let beyond = wave.edge.filter(|_| index.im > 0.0).map_or(0.0, |e| e.absorption(index));
-        let extinction = match far_field.straight_forward() {
+        let ahead = far_field.straight_forward().filter(|_| plan.forward_diffraction);
+        let extinction = match ahead {
             Some(s) => TAU * (s.s1 + s.s2).re / wave.size_parameter.powi(2),
             None if plan.forward_diffraction => 2.0 * area,
             None => area,
@@ -195,14 +269,20 @@ pub fn scatter(
 }
 
 /// The same with cross sections, for the share of light on the shadow that rays lose inside.
+///
+/// With a `filter` (radians) amplitudes of patches have the intensities that it leaves near bows.
 pub fn scatter_with_sections(
     plan: &Plan,
     index: Complex64,
     size_parameter: f64,
     directions: &[(f64, f64)],
     absorbed: f64,
+    filter: Option<f64>,
 ) -> (Vec<AmplitudeMatrix>, CrossSections) {
-    let (amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
+    let (mut amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
+    if let Some(sigma) = filter {
+        amplitudes = far_field.scatter_filtered(directions, plan.forward_diffraction, sigma);
+    }
     (amplitudes, CrossSections::new(plan, &far_field, index, absorbed))
 }
 

@@ -4,7 +4,7 @@ use super::UsageError;
 use clap::Args;
 use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, decimal_bytes};
 use gonio::math::digits::to_digits;
-use gonio::phase_table::TableHeader;
+use gonio::phase_table::{ERROR_BANDS, TableHeader, error_theta};
 use gonio::scene::Named;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -103,6 +103,12 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "error_estimate": number(slab.error_estimate),
             "error_estimate_by_band": number(slab.error_by_band),
             "tolerance_met": slab.tolerance_met,
+            "error_estimate_by_direction":
+                slab.error_by_direction.iter().map(|e| if e.is_finite() { json!(to_digits(*e, 3)) } else { Value::Null }).collect::<Vec<_>>(),
+            "error_theta_deg": if index == 0 {
+                json!((0..ERROR_BANDS).map(|k| tidy(error_theta(k).to_degrees())).collect::<Vec<_>>())
+            } else { Value::Null },
+            "left_out_share": slab.left_out,
             "samples_beyond_two_rays": slab
                 .caustic_order
                 .as_ref()

@@ -4,6 +4,7 @@
 mod batch;
 mod bench;
 mod compare;
+mod cpu_time;
 mod export;
 mod info;
 mod interrupt;

@@ -4,7 +4,7 @@ use super::UsageError;
 use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
 use gonio::phase_table::{
-    Averaging, Axes, Bodies, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Averaging, Axes, Bodies, ERROR_BANDS, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
 };
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
@@ -213,6 +213,8 @@ fn slab(
         error_estimate: 1e-10,
         error_by_band: 1e-10,
         tolerance_met: None,
+        error_by_direction: [1e-10; ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 

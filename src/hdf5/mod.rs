@@ -25,6 +25,9 @@
 //! | `error_estimate` | wavelength_nm | 1 | estimated relative error of the intensity, weighted by intensity, 10° to 170° |
 //! | `error_estimate_by_band` | wavelength_nm | 1 | the same, root mean square over bands of 4°, each relative to its own intensity |
 //! | `tolerance_met` | wavelength_nm | 1 | 1: the error that was asked for is met by the method's own estimate; 0: it is not; NaN: no estimate |
+//! | `error_theta` | itself | degree | middles of the bands of 4° for which an error is stated: 0, 4, … 180, f64 |
+//! | `error_estimate_by_direction` | wavelength_nm, error_theta | 1 | the same within 2° of each angle |
+//! | `left_out_share` | wavelength_nm | 1 | share of the scattered power in orders that the scene's list leaves out: what Σ phase_function · solid_angle lacks to 1; only where not 0 |
 //! | `energy_left_by_order` | wavelength_nm, order | 1 | power that left after that many chords, per power on the silhouette |
 //! | `energy_absorbed`, `energy_totally_reflected`, `energy_truncated`, `energy_residual` | wavelength_nm | 1 | the rest of the budget; NaN where a wavelength has none |
 //! | `radius_um` | | um | radius of the sphere of equal volume |

@@ -2,13 +2,14 @@
 
 use super::circumstances::read_numbers;
 use super::raw_read::{OpenDataset, OpenFile};
-use super::record::{ENERGY, LATER, PLAIN, Record};
+use super::record::{BY_DIRECTION, ENERGY, LATER, LEFT_OUT, PLAIN, Record};
 use super::schema::{
     ELEMENTS, FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name,
 };
 use super::{TableError, damaged, foreign, invalid};
 use crate::phase_table::{
-    Averaging, Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Averaging, Axes, ERROR_BANDS, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab,
+    TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -143,6 +144,8 @@ pub(super) fn slab_at(
         peak_share: record.peak_share,
         error_estimate: record.error_estimate,
         error_by_band: record.error_by_band,
+        error_by_direction: record.error_by_direction,
+        left_out: record.left_out,
     })
 }
 
@@ -306,6 +309,15 @@ pub(super) fn read_records(
     let absorbed = |i: usize| {
         if absorption[i].is_nan() { extinction[i] - scattering[i] } else { absorption[i] }
     };
+    let bands = ERROR_BANDS as u64;
+    let by_direction = match file.dataset(BY_DIRECTION)? {
+        Some(_) => read_field(file, BY_DIRECTION, leading, wavelengths, Some(bands))?,
+        None => vec![f64::NAN; wavelengths * ERROR_BANDS],
+    };
+    let left_out = match file.dataset(LEFT_OUT)? {
+        Some(_) => read_field(file, LEFT_OUT, leading, wavelengths, None)?,
+        None => vec![0.0; wavelengths],
+    };
     let record = |(i, energy)| Record {
         index: Complex64::new(real[i], imag[i]),
         scattering_cross_section: scattering[i],
@@ -318,6 +330,8 @@ pub(super) fn read_records(
         peak_share: share[i],
         error_estimate: error[i],
         error_by_band: by_band[i],
+        error_by_direction: std::array::from_fn(|k| by_direction[i * ERROR_BANDS + k]),
+        left_out: left_out[i],
         energy,
     };
     let budgets = read_budgets(file, leading, wavelengths)?;

@@ -5,7 +5,8 @@
 
 use super::TableError;
 use super::raw_write::{Kind, NewDataset, NewFile};
-use crate::phase_table::{EnergyBudget, Slab};
+use super::schema::{degree, scale};
+use crate::phase_table::{ERROR_BANDS, EnergyBudget, Slab, error_theta};
 use num_complex::Complex64;
 
 /// The numbers of one slab.
@@ -23,6 +24,8 @@ pub(super) struct Record {
     pub peak_share: f64,
     pub error_estimate: f64,
     pub error_by_band: f64,
+    pub error_by_direction: [f64; ERROR_BANDS],
+    pub left_out: f64,
     pub energy: Option<EnergyBudget>,
 }
 
@@ -40,6 +43,8 @@ impl From<&Slab> for Record {
             peak_share: slab.peak_share,
             error_estimate: slab.error_estimate,
             error_by_band: slab.error_by_band,
+            error_by_direction: slab.error_by_direction,
+            left_out: slab.left_out,
             energy: slab.energy.clone(),
         }
     }
@@ -111,6 +116,14 @@ pub(super) fn write_records(
         let values: Vec<f64> = records.iter().map(|r| r.as_ref().map_or(f64::NAN, value)).collect();
         write_field(file, (name, units, words), &values, dimensions, shape)?;
     }
+    // A share of 0 says nothing.
+    let left_out: Vec<f64> =
+        records.iter().map(|r| r.as_ref().map_or(0.0, |r| r.left_out)).collect();
+    if left_out.iter().any(|&share| share != 0.0) {
+        let words = "share of the scattered power in orders that the scene's list leaves out";
+        write_field(file, (LEFT_OUT, "1", words), &left_out, dimensions, shape)?;
+    }
+    write_errors(file, records, dimensions, shape)?;
 
     let budgets: Vec<Option<&EnergyBudget>> =
         records.iter().map(|r| r.as_ref().and_then(|r| r.energy.as_ref())).collect();
@@ -123,6 +136,31 @@ pub(super) fn write_records(
         write_field(file, (name, "1", &words), &values, dimensions, shape)?;
     }
     write_orders(file, &budgets, dimensions, shape)
+}
+
+/// The variable with the stated error by scattering angle.
+pub(super) const BY_DIRECTION: &str = "error_estimate_by_direction";
+
+/// The variable with the share of orders left out by a list.
+pub(super) const LEFT_OUT: &str = "left_out_share";
+
+fn write_errors(
+    file: &NewFile,
+    records: &[Option<Record>],
+    dimensions: &[&NewDataset],
+    shape: &[u64],
+) -> Result<(), TableError> {
+    let middles: Vec<f64> = (0..ERROR_BANDS).map(|band| degree(error_theta(band))).collect();
+    let theta = scale(file, "error_theta", &middles, "degree")?;
+    theta.attribute("long_name", "middle of a band of scattering angles")?;
+    let errors =
+        |r: &Option<Record>| r.as_ref().map_or([f64::NAN; ERROR_BANDS], |r| r.error_by_direction);
+    let values: Vec<f64> = records.iter().flat_map(errors).collect();
+    let words = "estimated relative error of the intensity within 2 degrees of each angle";
+    let (mut dimensions, mut shape) = (dimensions.to_vec(), shape.to_vec());
+    dimensions.push(&theta);
+    shape.push(ERROR_BANDS as u64);
+    write_field(file, (BY_DIRECTION, "1", words), &values, &dimensions, &shape)
 }
 
 fn write_orders(

@@ -134,6 +134,7 @@ impl Slab {
         self.validate_sections()?;
         within("asymmetry", self.asymmetry, -1.0..=1.0)?;
         within("peak_share", self.peak_share, 0.0..=1.0)?;
+        within("left_out_share", self.left_out, 0.0..=1.0)?;
         for (field, error) in [
             ("error_estimate", self.error_estimate),
             ("error_estimate_by_band", self.error_by_band),
@@ -143,12 +144,17 @@ impl Slab {
                 return Err(invalid(field, error, "a finite number, 0 or more, or none"));
             }
         }
+        let stated = self.error_by_direction.iter();
+        if let Some(error) = stated.copied().find(|error| *error < 0.0 || error.is_infinite()) {
+            let accepted = "finite numbers, 0 or more, or none";
+            return Err(invalid("error_estimate_by_direction", error, accepted));
+        }
         if let Some(energy) = &self.energy {
             energy.validate(self.index.im)?;
         }
         let expected = match header.forward_peak {
-            ForwardPeak::CellAverage => 1.0,
-            ForwardPeak::Separate => 1.0 - self.peak_share,
+            ForwardPeak::CellAverage => 1.0 - self.left_out,
+            ForwardPeak::Separate => 1.0 - self.peak_share - self.left_out,
             ForwardPeak::Point => return Ok(()),
         };
         let sum = self.sum(&header.axes);
@@ -292,6 +298,8 @@ mod tests {
             peak_share: 0.0,
             error_estimate: f64::NAN,
             error_by_band: f64::NAN,
+            error_by_direction: [f64::NAN; crate::phase_table::ERROR_BANDS],
+            left_out: 0.0,
             tolerance_met: None,
         };
         (header, slab)

@@ -13,7 +13,7 @@ use super::mean::{Ensemble, MeanError};
 use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
-use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
+use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, Quantity, Slab};
 use crate::scene::SunDisc;
 use crate::size_distribution::SizeDistribution;
 use ndarray::Array3;
@@ -133,6 +133,8 @@ pub fn sphere_slab(
         error_estimate: curves.error,
         error_by_band: curves.error,
         tolerance_met: (!curves.error.is_nan()).then_some(curves.error <= job.tolerance),
+        error_by_direction: [curves.error; ERROR_BANDS],
+        left_out: 0.0,
     })
 }
 

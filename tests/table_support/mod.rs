@@ -87,6 +87,8 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         error_estimate: 0.01,
         error_by_band: 0.05,
         tolerance_met: Some(index % 2 == 0),
+        error_by_direction: [0.05; gonio::phase_table::ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 
@@ -140,6 +142,8 @@ pub fn mie_table(
             error_estimate: 0.0,
             error_by_band: 0.0,
             tolerance_met: None,
+            error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
+            left_out: 0.0,
         }
     });
     let slabs = slabs.collect();

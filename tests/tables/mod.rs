@@ -106,6 +106,8 @@ fn slab(
         error_estimate: 0.0,
         error_by_band: 0.0,
         tolerance_met: None,
+        error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 
