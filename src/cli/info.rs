@@ -88,6 +88,11 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
         let face = slab.values.index_axis(ndarray::Axis(0), 0);
         let most = face.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         let least = face.iter().copied().fold(f32::INFINITY, f32::min);
+        let by_direction: Vec<Value> = slab
+            .error_by_direction
+            .iter()
+            .map(|&error| if error.is_finite() { json!(to_digits(error, 3)) } else { Value::Null })
+            .collect();
         slabs.push(json!({
             "wavelength_nm": tidy(slab.wavelength * 1e9),
             "index": [slab.index.re, slab.index.im],
@@ -103,11 +108,7 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "error_estimate": number(slab.error_estimate),
             "error_estimate_by_band": number(slab.error_by_band),
             "tolerance_met": slab.tolerance_met,
-            "error_estimate_by_direction":
-                slab.error_by_direction.iter().map(|e| if e.is_finite() { json!(to_digits(*e, 3)) } else { Value::Null }).collect::<Vec<_>>(),
-            "error_theta_deg": if index == 0 {
-                json!((0..ERROR_BANDS).map(|k| tidy(error_theta(k).to_degrees())).collect::<Vec<_>>())
-            } else { Value::Null },
+            "error_estimate_by_direction": by_direction,
             "left_out_share": slab.left_out,
             "samples_beyond_two_rays": slab
                 .caustic_order
@@ -116,6 +117,8 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "energy": slab.energy,
         }));
     }
+    let bands: Vec<f64> = (0..ERROR_BANDS).map(|k| tidy(error_theta(k).to_degrees())).collect();
+    description["error_theta_deg"] = json!(bands);
     description["wavelengths"] = Value::Array(slabs);
     for name in ["program_version", "git_hash", "date_created", "command_line", "license"] {
         description[name] = json!(reader.attribute(name)?);
