@@ -5,6 +5,7 @@ use super::render_drops::{DropKeys, tables};
 use anyhow::Context;
 use clap::Args;
 use gonio::color::{ColorError, decode_srgb};
+use gonio::phase_table::PhaseTable;
 use gonio::render::RenderError;
 use gonio::render::camera::Camera;
 use gonio::render::sky::{Drops, RainShape, Sky, render};
@@ -138,6 +139,7 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
     sky(&scene, asked.unwrap_or(20.0).to_radians())?;
     camera(&scene, asked.unwrap_or(20.0).to_radians())?;
     let tables = tables(&scene.drops, drop_folder, asked.unwrap_or(20.0), polarised)?;
+    note_on_disc(&tables, scene.sun.disc);
     let elevation = asked.map(f64::to_radians).unwrap_or_else(|| {
         tables
             .iter()
@@ -152,6 +154,17 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
     let picture = render(&camera, &sky, &drops).map_err(wrong_input)?;
     picture.write_png(&args.output)?;
     Ok(())
+}
+
+/// Say where the sun's disc is in a table already, so that the picture leaves it alone.
+fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) {
+    if tables.iter().any(|(table, _)| table.header.averaging.has_sun_disc()) {
+        let wish = match asked {
+            Some(false) => "; sun.disc = false cannot take it out",
+            _ => " and is not applied again",
+        };
+        eprintln!("note: the sun's disc is in the table already{wish}");
+    }
 }
 
 fn read_scene(path: &Path) -> anyhow::Result<RenderScene> {

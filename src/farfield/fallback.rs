@@ -43,8 +43,6 @@ const PATCH_RINGS: f64 = 90.0;
 const OF_REFLECTION: f64 = 0.07;
 const OF_PATCHES: f64 = 0.3;
 const OF_BEAMS: f64 = 0.02;
-/// Doubt of partial waves times the size parameter.
-const OF_PARTIAL_WAVES: f64 = 2.0;
 
 /// Whether beams serve.
 pub(crate) fn with_beams(settings: &FarFieldSettings) -> bool {
@@ -60,8 +58,8 @@ impl FallbackField {
         settings: &FarFieldSettings,
     ) -> Self {
         let (reflected, transmitted) = orders.split_at(orders.partition_point(|&order| order == 0));
-        let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
-        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt };
+        // theirs is measured on the sphere of equal volume
+        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt: 0.0 };
         let mut parts: Vec<Part> = waves.map(of_waves).into_iter().collect();
         if !reflected.is_empty() {
             let method = patches(tracer, reflected, settings);
