@@ -10,6 +10,7 @@ mod interrupt;
 mod lee;
 mod material;
 mod memory;
+mod notes;
 mod plan;
 mod plot;
 mod progress;
