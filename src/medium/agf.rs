@@ -39,18 +39,31 @@ pub(super) fn parse(
 ) -> Result<Material, MediumError> {
     let mut heading = String::new();
     let mut glasses: Vec<Glass> = Vec::new();
-    for (i, line) in text.lines().enumerate() {
-        let mut words = line.split_whitespace();
-        let (Some(keyword), number) = (words.next(), i + 1) else { continue };
-        let rest: Vec<&str> = words.collect();
-        match (keyword, glasses.last_mut()) {
+    for (number, words) in statements(text) {
+        let Some((keyword, rest)) = words.split_first() else { continue };
+        match (*keyword, glasses.last_mut()) {
             ("CC", None) => heading = rest.join(" "),
-            ("NM", _) => glasses.push(Glass::named(&rest, number)),
-            (_, Some(glass)) => glass.line_of(keyword, &rest, number),
+            ("NM", _) => glasses.push(Glass::named(rest, number)),
+            (keyword, Some(glass)) => glass.line_of(keyword, rest, number),
             _ => {}
         }
     }
     choose(glasses, path, wanted)?.material(path, &heading)
+}
+
+/// The words of each statement with the number of its first line. Some catalogues break long ones:
+/// a line that begins with a number goes on with the one before.
+fn statements(text: &str) -> Vec<(usize, Vec<&str>)> {
+    let mut all: Vec<(usize, Vec<&str>)> = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let words = line.split_whitespace();
+        let goes_on = line.split_whitespace().next().is_some_and(|w| w.parse::<f64>().is_ok());
+        match all.last_mut() {
+            Some((_, before)) if goes_on => before.extend(words),
+            _ => all.push((i + 1, words.collect())),
+        }
+    }
+    all
 }
 
 /// The glass of a name, in small letters or capitals.
@@ -230,7 +243,7 @@ mod tests {
     }
 
     const CATALOGUE: &str = "CC a maker\nNM F2 2 620364.360 1.62004 36.37 0 1\nGC leaded\n\
-        CD 1.34533359 0.00997743871 0.209073176 0.0470450767 0.937357162 111.886764 0 0\n\
+        CD 1.34533359 0.00997743871 0.209073176 0.0470450767\n0.937357162 111.886764 0 0\n\
         LD 0.32 2.5\nIT 0.32 0.0 25\nIT 0.4 0.985 25\nIT 0.7 0.998 25\n\
         NM X 2 0 1.5 60 0 1\nCD 1.2 a\nLD 0.3 2\n";
 
@@ -246,7 +259,7 @@ mod tests {
         for (glass, expected) in [
             (None, "2 glasses: say which"),
             (Some("F3"), "no glass \"F3\" among 2, did you mean \"F2\"?"),
-            (Some("X"), "line 10: CD: \"a\" is not a finite number"),
+            (Some("X"), "line 11: CD: \"a\" is not a finite number"),
         ] {
             let found = read(glass).unwrap_err().to_string();
             assert!(found.contains(expected), "{found}");
