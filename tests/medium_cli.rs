@@ -114,7 +114,8 @@ fn a_short_range_of_n_says_what_it_is_worth() {
         .skip(2)
         .map(|line| line.split(',').map(|v| v.parse().unwrap()).collect())
         .collect();
-    let written: String = rows.iter().map(|r| format!("{},{}\n", r[0], 1.33 + r[1] - r[3])).collect();
+    let written: String =
+        rows.iter().map(|r| format!("{},{}\n", r[0], 1.33 + r[1] - r[3])).collect();
     std::fs::write(&path, format!("wavelength_um,n\n{written}")).unwrap();
     let file = path.to_str().unwrap();
     let arguments = ["--kramers-kronig", file, "--background", "1.33", "--inverse"];

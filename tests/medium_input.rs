@@ -204,7 +204,12 @@ fn one_odd_row_does_not_condemn_a_file() {
     let glass = "3.50 -0.013 2 0.041 -2";
     let lead = (3.5 - 0.013 * 0.55_f64.powi(2) + 0.041 / 0.55_f64.powi(2)).sqrt();
     let sound = [
-        (nk("      0.4 0.20 2\n      0.5 0.21 2\n      0.5 0.21 2\n      0.6 0.21 2\n"), 0.21, 2.0, ""),
+        (
+            nk("      0.4 0.20 2\n      0.5 0.21 2\n      0.5 0.21 2\n      0.6 0.21 2\n"),
+            0.21,
+            2.0,
+            "",
+        ),
         (
             nk("      0.5 0.20 1\n      0.5 0.22 3\n      0.6 0.21 2\n"),
             0.21,
@@ -224,7 +229,12 @@ fn one_odd_row_does_not_condemn_a_file() {
             0.0,
             "2 rows with k below 0 (lowest -1e-3)",
         ),
-        (nk("      0.3 0 0\n      0.5 1.5 0\n      0.6 1.5 0\n"), 1.5, 0.0, "n = 0 must be positive"),
+        (
+            nk("      0.3 0 0\n      0.5 1.5 0\n      0.6 1.5 0\n"),
+            1.5,
+            0.0,
+            "n = 0 must be positive",
+        ),
         (
             formula("formula 3, 0.365 2.0", glass, &k("      0.28 -0.0\n      0.29 0\n")),
             lead,
@@ -249,12 +259,15 @@ fn one_odd_row_does_not_condemn_a_file() {
     }
     let short = formula("formula 3, 0.3 2.0", glass, &k("      0.31 1e-6\n      0.5 1e-8\n"));
     let unsound = [
-        (short, "data of k of f (310 to 500 nm); its n, 1.902"),
+        (short, "data of k of f (310 to 500 nm); its n, 1.905"),
         (nk("      0.5 1.5 0\n      0.56 -1.5 0\n      0.6 1.5 0\n"), "line 5: n = -1.5 must be"),
         (nk("      250 2.0 0.5\n      500 2.1 0.6\n"), "(250000 to 500000 nm)"),
         (nk("      0.5 1.5 -0.1\n      0.6 1.5 -0.2\n"), "k = -0.1 must be 0 or more"),
         (formula("formula 2, 0.3 13", "3.6 2.2 0.19 1.8", ""), "number of coefficients = 4"),
-        ("DATA:\n  - type: tabulated n2\n    data: |\n      0.5 1e-20\n".into(), "nonlinear index n2"),
+        (
+            "DATA:\n  - type: tabulated n2\n    data: |\n      0.5 1e-20\n".into(),
+            "nonlinear index n2",
+        ),
         (format!("DATA:\n{}", k("      0.5 1e-3\n      0.6 1e-3\n")), "no n (only k)"),
     ];
     for (text, expected) in unsound {
@@ -263,7 +276,11 @@ fn one_odd_row_does_not_condemn_a_file() {
         assert!(found.contains(expected), "{text}: {found:?} lacks {expected:?}");
     }
     // Far infrared data answer there.
-    write(folder.path(), "f.yml", &nk("      250 2.0 0.5\n      500 2.1 0.6\n      2000 2.4 0.8\n"));
+    write(
+        folder.path(),
+        "f.yml",
+        &nk("      250 2.0 0.5\n      500 2.1 0.6\n      2000 2.4 0.8\n"),
+    );
     let index = resolve("f.yml", folder.path()).unwrap().index(500e-6).unwrap();
     assert_eq!((index.re, index.im), (2.1, 0.6));
 }
@@ -278,20 +295,42 @@ fn dialects_of_text_tables() {
     let bytes = |text: &str| text.as_bytes().to_vec();
     let cases: [(&str, Vec<u8>, &str); 16] = [
         ("plain.csv", bytes(plain), ""),
-        ("site.csv", bytes("wl,n\n0.4,1.5\n0.5,1.49\n0.6,1.48\n\nwl,k\n0.4,0.001\n0.5,0.002\n"), ""),
+        (
+            "site.csv",
+            bytes("wl,n\n0.4,1.5\n0.5,1.49\n0.6,1.48\n\nwl,k\n0.4,0.001\n0.5,0.002\n"),
+            "",
+        ),
         ("site.txt", bytes("wl\tn\tk\n0.4\t1.5\t0.001\n0.5\t1.49\t0.002\n"), ""),
         ("quoted.csv", bytes("\"Wavelength, um\",n,k\n0.4,1.5,0.001\n0.5,1.49,0.002\n"), ""),
-        ("all.csv", bytes("\"wavelength_nm\",\"n\",\"k\"\n\"400\",\"1.5\",\"0\"\n\"500\",\"1.49\",\"0.002\"\n"), ""),
+        (
+            "all.csv",
+            bytes(
+                "\"wavelength_nm\",\"n\",\"k\"\n\"400\",\"1.5\",\"0\"\n\"500\",\"1.49\",\"0.002\"\n",
+            ),
+            "",
+        ),
         ("comma.csv", bytes("wavelength_um;n;k\n0,40;1,50;0,001\n0,50;1,49;0,002\n"), ""),
         ("tab.tsv", bytes("wavelength_um\tn\tk\n0,40\t1,50\t0,001\n0,50\t1,49\t0,002\n"), ""),
-        ("down.csv", bytes("wavelength_nm,n,k\n600,1.48,0.003\n500,1.49,0.002\n400,1.5,0.001\n"), ""),
+        (
+            "down.csv",
+            bytes("wavelength_nm,n,k\n600,1.48,0.003\n500,1.49,0.002\n400,1.5,0.001\n"),
+            "",
+        ),
         ("d.csv", bytes("wavelength_nm,n,k\n4.0D+02,1.5D0,1.0D-03\n5.0D+02,1.49D0,2.0D-03\n"), ""),
-        ("note.csv", bytes("! a\n% b\nwavelength_nm,n,k,\n400,1.5,0.001, # c\n500,1.49,0.002,\n"), ""),
+        (
+            "note.csv",
+            bytes("! a\n% b\nwavelength_nm,n,k,\n400,1.5,0.001, # c\n500,1.49,0.002,\n"),
+            "",
+        ),
         ("mac.csv", bytes(&plain.replace('\n', "\r")), ""),
         ("utf16.csv", wide(plain), "UTF-16"),
         ("latin.csv", latin("wavelength (µm),n,k\n0.4,1.5,0.001\n0.5,1.49,0.002\n"), "Latin-1"),
         ("cm.csv", bytes("wavenumber_cm-1,n,k\n16666,1.48,0.003\n20000,1.49,0.002\n"), ""),
-        ("ev.csv", bytes("Energy (eV),n,kappa\n2.479683968664,1.49,0.002\n3.0,1.5,0.001\n"), "kappa"),
+        (
+            "ev.csv",
+            bytes("Energy (eV),n,kappa\n2.479683968664,1.49,0.002\n3.0,1.5,0.001\n"),
+            "kappa",
+        ),
         ("eps.csv", bytes("wl,eps1,eps2\n0.4,2.25,0.003\n0.5,2.220096,0.00596\n"), ""),
     ];
     for (name, bytes, note) in cases {

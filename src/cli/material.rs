@@ -8,7 +8,8 @@ use super::plot;
 use anyhow::Result;
 use clap::Args;
 use gonio::medium::{
-    Abbe, AbbeLines, Extinction, LibraryEntry, Medium, MediumError, MediumSpec, abbe_to_sellmeier, fit_cauchy, list,
+    Abbe, AbbeLines, Extinction, LibraryEntry, Medium, MediumError, MediumSpec, abbe_to_sellmeier,
+    fit_cauchy, list,
 };
 use num_complex::Complex64;
 use serde_json::{Value, json};
@@ -27,19 +28,24 @@ pub struct MaterialArgs {
     #[arg(long, conflicts_with_all = ["from_abbe", "kramers_kronig"])]
     list: bool,
     /// Wavelengths in vacuum: values and FROM:TO:STEP ranges, separated by commas
-    #[arg(long, value_name = "NM", value_parser = parse_wavelengths, requires = "name")]
+    #[arg(long, value_name = "NM", value_parser = parse_wavelengths, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     wavelength_nm: Option<Wavelengths>,
     /// Temperature of water (default 20)
-    #[arg(long, value_name = "C", allow_negative_numbers = true, requires = "name")]
+    #[arg(long, value_name = "C", allow_negative_numbers = true, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     temperature_c: Option<f64>,
     /// Density of water or steam (default: the liquid at 1 atm)
-    #[arg(long, value_name = "KG", allow_negative_numbers = true, requires = "name")]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     density_kg_m3: Option<f64>,
     /// Salinity of sea water (default 35)
-    #[arg(long, value_name = "G", allow_negative_numbers = true, requires = "name")]
+    #[arg(long, value_name = "G", allow_negative_numbers = true, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     salinity_g_kg: Option<f64>,
     /// Answer outside the data too: formulas go on, tables hold their end value
-    #[arg(long, requires = "name")]
+    #[arg(long, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     extrapolate: bool,
     /// A second material, to be set beside the first
     #[arg(long, value_name = "NAME", requires = "name")]
@@ -137,7 +143,8 @@ fn medium(name: &str, args: &MaterialArgs) -> Result<Medium> {
     let conditions = [args.temperature_c, args.density_kg_m3, args.salinity_g_kg];
     match &mut spec {
         MediumSpec::Named(named) => {
-            let own = [&mut named.temperature_c, &mut named.density_kg_m3, &mut named.salinity_g_kg];
+            let own =
+                [&mut named.temperature_c, &mut named.density_kg_m3, &mut named.salinity_g_kg];
             for ((own, flag), key) in own.into_iter().zip(conditions).zip(CONDITIONS) {
                 match (&own, flag) {
                     (Some(own), Some(flag)) if *own != flag => {

@@ -62,7 +62,8 @@ pub fn run(args: RaysArgs) -> Result<()> {
     let shape = shape(&args)?;
     let index = match args.index {
         Some(Index(index)) => index,
-        None => Medium::Water { temperature: 293.15 }.index(args.wavelength_nm.unwrap_or(589.3) * 1e-9)?,
+        None => Medium::Water { temperature: 293.15 }
+            .index(args.wavelength_nm.unwrap_or(589.3) * 1e-9)?,
     };
     if !(2..=MOST_RAYS).contains(&args.count) {
         let message = format!("--count {}: 2 to {MOST_RAYS} is accepted", args.count);

@@ -58,7 +58,8 @@ impl DropKeys {
         ];
         let beside_table = present.iter().find(|(_, there)| self.table.is_some() && *there);
         if let Some((key, _)) = beside_table {
-            let message = format!("drops.{key} with drops.table: the table says what its drops are");
+            let message =
+                format!("drops.{key} with drops.table: the table says what its drops are");
             return Err(UsageError(message));
         }
         let sphere = self.shape.as_deref().unwrap_or("sphere") == "sphere";

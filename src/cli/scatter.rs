@@ -189,8 +189,7 @@ fn size(args: &ScatterArgs) -> Result<Size> {
 /// Flags that contradict each other; each pair is refused rather than settled.
 fn check_flags(args: &ScatterArgs) -> Result<()> {
     let series = args.method != MethodName::Rays;
-    let patches =
-        args.diffraction.is_some_and(|diffraction| diffraction != DiffractionName::Airy);
+    let patches = args.diffraction.is_some_and(|diffraction| diffraction != DiffractionName::Airy);
     let rules = [
         (
             args.method == MethodName::Mie && args.orders != "auto",
@@ -212,11 +211,8 @@ fn check_flags(args: &ScatterArgs) -> Result<()> {
     if let Some((_, message)) = rules.iter().find(|(wrong, _)| *wrong) {
         return Err(usage((*message).into()));
     }
-    let flags = ShapeFlags {
-        shape: args.shape,
-        axis_ratio: args.axis_ratio,
-        model: args.model.as_deref(),
-    };
+    let flags =
+        ShapeFlags { shape: args.shape, axis_ratio: args.axis_ratio, model: args.model.as_deref() };
     Ok(flags.check()?)
 }
 
@@ -241,7 +237,10 @@ fn job(args: &ScatterArgs) -> Result<Job> {
         Some(Index(index)) => index,
         None => {
             let wavelength = size.wavelength.ok_or_else(|| {
-                usage("the index of water needs --wavelength-nm (or --radius-um); or give --index".into())
+                usage(
+                    "the index of water needs --wavelength-nm (or --radius-um); or give --index"
+                        .into(),
+                )
             })?;
             Medium::Water { temperature: 293.15 }.index(wavelength)?
         }
@@ -324,7 +323,10 @@ fn shape(args: &ScatterArgs, job: &Job) -> Result<Shape> {
         }
         ShapeKind::Raindrop => {
             let radius = job.radius.ok_or_else(|| {
-                usage("a raindrop's shape depends on its size: give --radius-um, or --wavelength-nm".into())
+                usage(
+                    "a raindrop's shape depends on its size: give --radius-um, or --wavelength-nm"
+                        .into(),
+                )
             })?;
             Shape::raindrop(radius, raindrop_model(args.model.as_deref())?, sun)
                 .map_err(|e| usage(e.to_string()))?

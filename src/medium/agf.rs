@@ -156,7 +156,8 @@ impl Glass {
         let range = (Unit::Micrometre.to_metres(from), Unit::Micrometre.to_metres(to));
         let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         let source = format!("{file}: {heading}");
-        let mut material = Material::from_formula(&self.name, source.trim_end_matches(": "), formula, range);
+        let mut material =
+            Material::from_formula(&self.name, source.trim_end_matches(": "), formula, range);
         let k = Samples::new(path, Column::K, self.transmission, &mut material.notes)?;
         Ok(if k.is_empty() { material } else { material.with_extinction(k.curve()) })
     }
@@ -223,13 +224,25 @@ mod tests {
         let cases: [(u32, &[f64], f64); 13] = [
             (1, &c[..6], powers(&[2, -2, -4, -6, -8])),
             (2, &s[..6], sell(3)),
-            (3, &c[..6], c[0] + c[1] * h + c[2] * h * h + c[3] * l + c[4] * l * l + c[5] * l.powi(3)),
-            (4, &[1.1, 0.2, 0.15, 0.3, 9.0], (2.1 + 0.2 * l / (l - 0.0225) + 0.3 / (l - 81.0)).sqrt()),
+            (
+                3,
+                &c[..6],
+                c[0] + c[1] * h + c[2] * h * h + c[3] * l + c[4] * l * l + c[5] * l.powi(3),
+            ),
+            (
+                4,
+                &[1.1, 0.2, 0.15, 0.3, 9.0],
+                (2.1 + 0.2 * l / (l - 0.0225) + 0.3 / (l - 81.0)).sqrt(),
+            ),
             (5, &[1.5, 0.01, 0.002], 1.5 + 0.01 / um + 0.002 / um.powf(3.5)),
             (6, &s[..8], sell(4)),
             (7, &[2.2, 0.01, 0.02, 0.003], (2.2 + 0.01 / (l - 0.02) - 0.003 * l).sqrt()),
             (8, &[2.2, 0.01, 0.02, 0.003], (2.2 + 0.01 * l / (l - 0.02) - 0.003 * l).sqrt()),
-            (9, &[2.2, 0.1, 0.02, 0.3, 90.0], (2.2 + 0.1 * l / (l - 0.02) + 0.3 * l / (l - 90.0)).sqrt()),
+            (
+                9,
+                &[2.2, 0.1, 0.02, 0.3, 90.0],
+                (2.2 + 0.1 * l / (l - 0.02) + 0.3 * l / (l - 90.0)).sqrt(),
+            ),
             (10, &c[..8], powers(&[2, -2, -4, -6, -8, -10, -12])),
             (11, &s, sell(5)),
             (12, &c[..8], powers(&[2, -2, -4, -6, -8, 4, 6])),

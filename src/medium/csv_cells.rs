@@ -63,7 +63,8 @@ impl Separator {
                 }
             }
         }
-        let mut cells: Vec<String> = cells.into_iter().map(|cell| cell.trim().to_string()).collect();
+        let mut cells: Vec<String> =
+            cells.into_iter().map(|cell| cell.trim().to_string()).collect();
         if self == Self::Blanks {
             cells.retain(|cell| !cell.is_empty());
         }
@@ -88,7 +89,11 @@ pub(super) fn number(cell: &str) -> Result<f64, String> {
         format!("\"{shown}\" is not a number")
     };
     if let Ok(value) = cell.parse::<f64>() {
-        return if value.is_finite() { Ok(value) } else { Err(format!("{value} is not a finite number")) };
+        return if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(format!("{value} is not a finite number"))
+        };
     }
     let plain: String = cell
         .chars()

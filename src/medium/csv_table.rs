@@ -116,10 +116,10 @@ impl Field {
                 Self::Value(Column::K)
             }
             "absorbance" | "abs" => Self::Value(Column::Absorbance),
-            "eps1" | "eps_1" | "epsilon1" | "epsilon_1" | "e1" | "ε1" | "ε_1" | "ε₁" | "eps_real"
-            | "eps_re" | "eps'" | "ε'" => Self::Permittivity,
-            "eps2" | "eps_2" | "epsilon2" | "epsilon_2" | "e2" | "ε2" | "ε_2" | "ε₂" | "eps_imag"
-            | "eps_im" | "eps''" | "ε''" => Self::Loss,
+            "eps1" | "eps_1" | "epsilon1" | "epsilon_1" | "e1" | "ε1" | "ε_1" | "ε₁"
+            | "eps_real" | "eps_re" | "eps'" | "ε'" => Self::Permittivity,
+            "eps2" | "eps_2" | "epsilon2" | "epsilon_2" | "e2" | "ε2" | "ε_2" | "ε₂"
+            | "eps_imag" | "eps_im" | "eps''" | "ε''" => Self::Loss,
             _ => return None,
         })
     }
@@ -168,7 +168,9 @@ impl Header {
             fields.push(field);
         }
         if fields.is_empty() {
-            return fail("no column besides the wavelength: expected n, k, eps1 or absorbance".into());
+            return fail(
+                "no column besides the wavelength: expected n, k, eps1 or absorbance".into(),
+            );
         }
         Ok(Self { unit, fields, separator })
     }

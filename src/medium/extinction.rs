@@ -23,12 +23,7 @@ pub(super) enum Data {
 }
 
 impl Extinction {
-    pub(super) fn new(
-        name: String,
-        source: String,
-        notes: Vec<String>,
-        curve: DataCurve,
-    ) -> Self {
+    pub(super) fn new(name: String, source: String, notes: Vec<String>, curve: DataCurve) -> Self {
         Self { name, source, notes, curve }
     }
 

@@ -137,8 +137,8 @@ pub fn worth_of_range(wavelength: &[f64], index_change: &[f64]) -> Result<Vec<f6
         let omega = 1.0 / w;
         let (above, below) = ((omega - low).max(half_row[0]), (high - omega).max(half_row[1]));
         let long = values[0] / PI * ((omega + low) / above).ln();
-        let integral = ((high + omega) / below).ln() / (2.0 * omega.powi(3))
-            - 1.0 / (omega * omega * high);
+        let integral =
+            ((high + omega) / below).ln() / (2.0 * omega.powi(3)) - 1.0 / (omega * omega * high);
         let short = 2.0 * omega / PI * values[last] * high * high * integral;
         long.abs() + short.abs()
     };

@@ -3,7 +3,9 @@
 //! Only the wavelength that is asked for is judged: a pole of the formula, an unsound row or the end
 //! of the table of k elsewhere does no harm.
 
-use super::{DataCurve, Formula, MediumError, Unit, check_range, digits, invalid, nanometres, range_text};
+use super::{
+    DataCurve, Formula, MediumError, Unit, check_range, digits, invalid, nanometres, range_text,
+};
 use num_complex::Complex64;
 
 /// The real part by wavelength.
@@ -60,11 +62,7 @@ impl Material {
     }
 
     /// A material of a table of n, transparent.
-    pub fn from_curve(
-        name: impl Into<String>,
-        source: impl Into<String>,
-        real: DataCurve,
-    ) -> Self {
+    pub fn from_curve(name: impl Into<String>, source: impl Into<String>, real: DataCurve) -> Self {
         Self::new(name.into(), source.into(), RealIndex::Table(real))
     }
 
@@ -126,8 +124,10 @@ impl Material {
             RealIndex::Table(curve) if let Some(n) = curve.value(wavelength) => return n,
             _ => {}
         }
-        if let (Some((unit, suspect)), Err(MediumError::OutOfRange { name, wavelength, range, .. })) =
-            (suspect, &outside)
+        if let (
+            Some((unit, suspect)),
+            Err(MediumError::OutOfRange { name, wavelength, range, .. }),
+        ) = (suspect, &outside)
         {
             return Err(MediumError::OutOfRange {
                 name: name.clone(),
@@ -157,30 +157,27 @@ impl Material {
     ) -> Result<f64, MediumError> {
         let um = wavelength * 1e6;
         let n = formula.index(um);
-        let field = || format!("index of {} at {} nm", self.name, nanometres(wavelength));
-        if !(n.is_finite() && n > 0.0) {
-            let accepted = "a wavelength at which the formula gives a positive real index";
-            return Err(invalid(&field(), n, accepted));
-        }
+        let field = format!("index of {} at {} nm", self.name, nanometres(wavelength));
         let inside = |p: &f64| (range.0 * 1e6..=range.1 * 1e6).contains(p);
-        let poles = formula.poles();
-        let Some(pole) = poles
-            .iter()
-            .filter(|p| inside(p))
-            .min_by(|a, b| (*a - um).abs().total_cmp(&(*b - um).abs()))
-        else {
-            return Ok(n);
-        };
-        let step = 1e-4;
-        let slope = (formula.index(um * (1.0 + step)) - formula.index(um * (1.0 - step)))
-            / (2.0 * step * n);
-        if (um - pole).abs() > POLE * pole && slope.abs() < STEEPEST {
+        let poles = formula.poles().into_iter().filter(inside);
+        if let Some(pole) = poles.min_by(|a, b| (a - um).abs().total_cmp(&(b - um).abs())) {
+            let step = 1e-4;
+            let (above, below) =
+                (formula.index(um * (1.0 + step)), formula.index(um * (1.0 - step)));
+            let slope = (above - below) / (2.0 * step * n);
+            // Written so that a slope that is no number is refused too.
+            if !((um - pole).abs() > POLE * pole && slope.abs() < STEEPEST) {
+                let accepted = format!(
+                    "a wavelength farther from the pole of the formula at {} nm, where it means \
+                     nothing",
+                    digits(pole * 1e3)
+                );
+                return Err(invalid(&field, digits(n), &accepted));
+            }
+        }
+        if n.is_finite() && n > 0.0 {
             return Ok(n);
         }
-        let accepted = format!(
-            "a wavelength farther from the pole of the formula at {} nm, where it means nothing",
-            digits(pole * 1e3)
-        );
-        Err(invalid(&field(), digits(n), &accepted))
+        Err(invalid(&field, n, "a wavelength at which the formula gives a positive real index"))
     }
 }

@@ -94,7 +94,9 @@ fn parse(text: &str, path: &Path) -> Result<Data, MediumError> {
     let Some(mut real) = real else {
         return match extinction {
             Some(curve) => Ok(Data::Extinction(Extinction::new(name, source, notes, curve))),
-            None => Err(file_error(path, None, "the file holds no n (only the nonlinear index n2)")),
+            None => {
+                Err(file_error(path, None, "the file holds no n (only the nonlinear index n2)"))
+            }
         };
     };
     real.unit = Some(Unit::Micrometre);

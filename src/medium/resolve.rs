@@ -5,8 +5,8 @@ use super::kramers_kronig::{Absorption, Tails};
 use super::spec::{MediumSpec, NamedSpec, has_ending};
 use super::table::{file_error, name_of};
 use super::{
-    Abbe, BandModel, Daimon, Dye, Formula, Material, Medium, MediumError, PLAUSIBLE_INDEX, Solution,
-    agf, csv_table, invalid, is_plausible, library, refractive_index_info,
+    Abbe, BandModel, Daimon, Dye, Formula, Material, Medium, MediumError, PLAUSIBLE_INDEX,
+    Solution, agf, csv_table, invalid, is_plausible, library, refractive_index_info,
 };
 use num_complex::Complex64;
 use std::path::Path;

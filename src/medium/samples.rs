@@ -176,12 +176,9 @@ fn flaws(rows: &[Row], notes: &mut Vec<String>) -> Vec<Flaw> {
 }
 
 /// One row for each wavelength: equal ones merged, unequal ones averaged.
-fn merged(
-    name: &str,
-    rows: &[(f64, f64, usize)],
-    notes: &mut Vec<String>,
-) -> (Vec<f64>, Vec<f64>) {
-    let (mut wavelength, mut value) = (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
+fn merged(name: &str, rows: &[(f64, f64, usize)], notes: &mut Vec<String>) -> (Vec<f64>, Vec<f64>) {
+    let (mut wavelength, mut value) =
+        (Vec::with_capacity(rows.len()), Vec::with_capacity(rows.len()));
     let mut unequal = 0;
     let mut from = 0;
     for i in 1..=rows.len() {

@@ -24,14 +24,38 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, PartialEq)]
 pub enum MediumSpec {
     Named(NamedSpec),
-    Index { n: f64, k: f64 },
+    Index {
+        n: f64,
+        k: f64,
+    },
     /// A file of optical data; `glass` is the name in a catalogue of several.
-    File { path: PathBuf, glass: Option<String>, extrapolate: bool },
-    Sellmeier { b: Vec<f64>, c_um2: Vec<f64> },
+    File {
+        path: PathBuf,
+        glass: Option<String>,
+        extrapolate: bool,
+    },
+    Sellmeier {
+        b: Vec<f64>,
+        c_um2: Vec<f64>,
+    },
     Cauchy(Vec<f64>),
-    Abbe { index: f64, number: f64, line: AbbeLines },
-    Solution { solute: String, fraction: f64, host: Box<MediumSpec>, dispersion: bool },
-    Absorbance { path: PathBuf, path_mm: f64, host: Box<MediumSpec>, dispersion: bool },
+    Abbe {
+        index: f64,
+        number: f64,
+        line: AbbeLines,
+    },
+    Solution {
+        solute: String,
+        fraction: f64,
+        host: Box<MediumSpec>,
+        dispersion: bool,
+    },
+    Absorbance {
+        path: PathBuf,
+        path_mm: f64,
+        host: Box<MediumSpec>,
+        dispersion: bool,
+    },
 }
 
 /// A name in the library with the conditions that go with it.

@@ -51,8 +51,14 @@ impl Column {
             return Err(format!("{value} is not a finite number"));
         }
         let (accepted, bound) = match self {
-            Self::N => ((1e-4..=1e4).contains(&value), if value <= 0.0 { "positive" } else { "1e-4 to 1e4" }),
-            Self::K => ((0.0..=1e4).contains(&value), if value > 0.0 { "at most 1e4" } else { "0 or more" }),
+            Self::N => (
+                (1e-4..=1e4).contains(&value),
+                if value <= 0.0 { "positive" } else { "1e-4 to 1e4" },
+            ),
+            Self::K => (
+                (0.0..=1e4).contains(&value),
+                if value > 0.0 { "at most 1e4" } else { "0 or more" },
+            ),
             Self::Absorbance => (value >= 0.0, "0 or more"),
         };
         if accepted {

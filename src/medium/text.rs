@@ -30,7 +30,8 @@ pub(super) fn read(path: &Path) -> Result<Text, MediumError> {
     if size > LARGEST_FILE {
         return Err(fail(format!("{size} bytes, at most {LARGEST_FILE} are read")));
     }
-    decode(std::fs::read(path).map_err(|e| fail(e.to_string()))?).map_err(|message| fail(message.into()))
+    decode(std::fs::read(path).map_err(|e| fail(e.to_string()))?)
+        .map_err(|message| fail(message.into()))
 }
 
 /// The text of some bytes, or why they are none.

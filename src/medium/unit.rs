@@ -103,7 +103,9 @@ impl Unit {
         let (last, quantity) = words.split_last()?;
         let unit = Self::parse(last)?;
         let fits: &[&str] = match unit {
-            Self::PerCentimetre | Self::PerMetre => &["wavenumber", "wave", "number", "k0", "ν", "nu"],
+            Self::PerCentimetre | Self::PerMetre => {
+                &["wavenumber", "wave", "number", "k0", "ν", "nu"]
+            }
             Self::ElectronVolt => &["photon", "energy", "e", "ev"],
             Self::Hertz | Self::Gigahertz | Self::Terahertz => {
                 &["frequency", "freq", "f", "ν", "nu"]

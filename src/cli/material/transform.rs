@@ -197,7 +197,11 @@ fn forward(
         Method::Maclaurin => maclaurin(wavelength, k)?,
         _ => this?,
     };
-    Ok(Transformed { n: base.iter().zip(change).map(|(b, c)| b + c).collect(), k: k.to_vec(), worth })
+    Ok(Transformed {
+        n: base.iter().zip(change).map(|(b, c)| b + c).collect(),
+        k: k.to_vec(),
+        worth,
+    })
 }
 
 fn inverse(
