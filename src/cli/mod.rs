@@ -11,6 +11,7 @@ mod interrupt;
 mod lee;
 mod material;
 mod memory;
+mod notes;
 mod plan;
 mod plot;
 mod progress;

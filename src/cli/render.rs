@@ -147,6 +147,7 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
             .find(|h| !h.rotational_symmetry)
             .map_or(20f64.to_radians(), |header| header.sun_elevation)
     });
+    check_sun(elevation, &tables)?;
     let sky = sky(&scene, elevation)?;
     let camera = camera(&scene, elevation)?;
     let drops: Vec<Drops<'_>> =
@@ -164,6 +165,24 @@ fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) {
             _ => " and is not applied again",
         };
         eprintln!("note: the sun's disc is in the table already{wish}");
+    }
+}
+
+/// Refuses a sun elsewhere than where the table of a drop that is no sphere has it.
+fn check_sun(elevation: f64, tables: &[(PhaseTable, f64)]) -> anyhow::Result<()> {
+    /// Degrees, as people round them.
+    const ROUNDING: f64 = 0.01;
+    let given = elevation.to_degrees();
+    let suns = tables.iter().map(|(table, _)| &table.header);
+    let bound = suns.filter(|header| !header.rotational_symmetry);
+    let other = bound.map(|header| header.sun_elevation.to_degrees());
+    match other.into_iter().find(|own| (own - given).abs() > ROUNDING) {
+        Some(own) => Err(UsageError(format!(
+            "sun.elevation_deg = {given}: a table of the drops was made for the sun at {own}°; \
+             make one for {given}°, or leave the elevation out"
+        ))
+        .into()),
+        None => Ok(()),
     }
 }
 

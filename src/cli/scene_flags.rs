@@ -137,20 +137,10 @@ fn word<T: Named + Send + Sync>() -> impl TypedValueParser<Value = Choice<T>> {
         .try_map(|word| T::from_name(&word).map(Choice))
 }
 
-/// `1.333`, `1.333+0.001`
+/// `1.333`, `1.333+0.001`, as in [`gonio::medium::parse_index`].
 pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
-    let accepted = || format!("\"{text}\" is not an index; accepted: N or N+K, as in 1.333+0.001");
-    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| accepted());
-    // The plus sign of an exponent, as in 1e+0, does not separate the parts.
-    let separator = text
-        .char_indices()
-        .skip(1)
-        .find(|(i, c)| *c == '+' && !text[..*i].ends_with(['e', 'E']))
-        .map(|(i, _)| i);
-    match separator {
-        Some(i) => Ok([number(&text[..i])?, number(&text[i + 1..])?]),
-        None => Ok([number(text)?, 0.0]),
-    }
+    let index = gonio::medium::parse_index(text).map_err(|error| error.to_string())?;
+    Ok([index.re, index.im])
 }
 
 /// `water`, `glass.yml`, `{ solute = … }`
@@ -211,25 +201,11 @@ impl SceneFlags {
 
     /// The scene of a file, or the built-in one, with the flags laid over it.
     pub fn scene(&self, path: Option<&Path>) -> Result<Scene, SceneError> {
-        match path {
+        let scene = match path {
             Some(path) => Scene::load(path, &self.keys()),
             None => Scene::built_in(&self.keys()),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn indices_as_on_the_command_line() {
-        assert_eq!(parse_index("1.333"), Ok([1.333, 0.0]));
-        assert_eq!(parse_index("1.333+0.001"), Ok([1.333, 0.001]));
-        assert_eq!(parse_index("1.3e+0+1e-3"), Ok([1.3, 0.001]));
-        assert_eq!(parse_index("1.5+-2"), Ok([1.5, -2.0]));
-        for bad in ["", "+", "a", "1.3+", "1.3i", "1.3+0.1i"] {
-            assert!(parse_index(bad).is_err(), "{bad}");
-        }
+        }?;
+        super::notes::tell(scene.medium.notes());
+        Ok(scene)
     }
 }

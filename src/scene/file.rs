@@ -214,7 +214,12 @@ impl TableKeys {
 }
 
 impl ModelKeys {
-    fn overridden_by(self, flags: &ModelKeys) -> ModelKeys {
+    fn overridden_by(mut self, flags: &ModelKeys) -> ModelKeys {
+        // Another method replaces what goes with rays alone.
+        let series = [Some(Choice(Method::Mie)), Some(Choice(Method::Debye))];
+        if series.contains(&flags.method) && flags.method != self.method {
+            (self.interference, self.diffraction, self.rays_across) = (None, None, None);
+        }
         ModelKeys {
             method: flags.method.or(self.method),
             interference: flags.interference.or(self.interference),

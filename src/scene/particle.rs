@@ -162,7 +162,13 @@ pub(super) fn medium_of(
 fn spec_of(keys: &ParticleKeys) -> Result<MediumSpec, SceneError> {
     let mut spec = keys.medium.clone().unwrap_or_default();
     match (&mut spec, keys.temperature_c) {
-        (MediumSpec::Named(named), Some(celsius)) => named.temperature_c = Some(celsius),
+        (MediumSpec::Named(named), Some(celsius)) => {
+            if let Some(own) = named.temperature_c.filter(|own| *own != celsius) {
+                let accepted = format!("the medium itself says {own}; give one of the two");
+                return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));
+            }
+            named.temperature_c = Some(celsius);
+        }
         (_, Some(celsius)) => {
             let accepted = "only a medium of the library has a temperature";
             return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));

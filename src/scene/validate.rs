@@ -224,10 +224,32 @@ impl Scene {
                 "the exact series are for spheres; other shapes take \"rays\" or \"auto\"";
             return Err(SceneError::invalid("model.method", self.method.name(), accepted));
         }
-        if let (Method::Mie, Orders::List(list)) = (self.method, &self.orders) {
-            let accepted =
-                "Lorenz–Mie has all orders at once; method = \"debye\" or \"rays\" takes a list";
-            return Err(SceneError::invalid("model.orders", format!("{list:?}"), accepted));
+        let sphere = matches!(self.particle, Particle::Sphere { .. });
+        let mie = self.method == Method::Mie || (self.method == Method::Auto && sphere);
+        if !mie && self.method != Method::Debye {
+            return Ok(());
+        }
+        // What Lorenz–Mie (also by "auto" of a sphere) and the sum of Debye terms know nothing of.
+        let refuse = |key: &str, value: String, accepted: &str| {
+            let method = format!("with method = \"{}\"", self.method.name());
+            Err(SceneError::invalid(key, format!("{value} {method}"), accepted))
+        };
+        if let (true, Orders::List(list)) = (mie, &self.orders) {
+            let accepted = "Lorenz–Mie, which \"auto\" takes for a sphere, has all orders at once; \
+                            method = \"debye\" or \"rays\" takes a list";
+            return refuse("model.orders", format!("{list:?}"), accepted);
+        }
+        if let Some(rays) = self.rays_across {
+            let accepted = "an exact series has no rays; method = \"rays\" takes it";
+            return refuse("model.rays_across", rays.to_string(), accepted);
+        }
+        if self.diffraction != Diffraction::Airy {
+            let accepted = "an exact series has its own diffraction; method = \"rays\" takes it";
+            return refuse("model.diffraction", self.diffraction.name().into(), accepted);
+        }
+        if !self.interference {
+            let accepted = "an exact series adds waves; method = \"rays\" can leave that out";
+            return refuse("model.interference", "false".into(), accepted);
         }
         Ok(())
     }
