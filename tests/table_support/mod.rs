@@ -109,6 +109,7 @@ pub fn mie_table(
     let mut header = header(wavelengths.len(), theta_count, 1, quantity);
     header.axes.wavelength = wavelengths.to_vec();
     (header.method, header.shape, header.radius) = ("mie".into(), "sphere".into(), radius);
+    header.averaging = Averaging::default();
     header.bodies = Some(Bodies::sphere(radius).with_density(Some(1000.0), "made up"));
     let weights = header.axes.solid_angle();
     let slabs = wavelengths.iter().map(|&wavelength| {
