@@ -301,10 +301,10 @@ fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Mean
         let orders = plan.orders.iter().map(|&p| Term::Order(p));
         Source::Debye(orders.chain(plan.forward_diffraction.then_some(Term::Diffraction)).collect())
     };
-    let one = SizeDistribution::Delta { radius: plan.radius };
+    let one = SizeDistribution::delta(plan.radius);
     let job = SphereJob {
         source,
-        sizes: scene.size_distribution.unwrap_or(one),
+        sizes: scene.size_distribution.clone().unwrap_or(one),
         medium: &scene.medium,
         wavelength,
         bandwidth: scene.bandwidth,
