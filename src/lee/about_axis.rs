@@ -44,8 +44,8 @@ impl Axis {
         }
     }
 
-    /// Angle from this axis.
-    fn from_axis(self, theta: f64) -> f64 {
+    /// Angle away from this axis.
+    fn away(self, theta: f64) -> f64 {
         match self {
             Self::Forward => theta,
             Self::Backward => PI - theta,
@@ -81,10 +81,10 @@ pub fn average(
     samples: Samples,
     centres: &[f64],
 ) -> Vec<Stimuli> {
-    let farthest = centres.iter().map(|&t| axis.from_axis(t)).fold(0.0, f64::max);
+    let farthest = centres.iter().map(|&t| axis.away(t)).fold(0.0, f64::max);
     let smooth = Smooth::new(axis, filter, samples, farthest + SUN_ANGULAR_RADIUS);
     let rings = rings(limb);
-    centres.iter().map(|&theta| smooth.over_disc(axis.from_axis(theta), &rings)).collect()
+    centres.iter().map(|&theta| smooth.over_disc(axis.away(theta), &rings)).collect()
 }
 
 /// Distances from the disc's centre and shares of its light, by Gauss's rule over rings of equal area.
@@ -206,7 +206,7 @@ mod tests {
             let values: Vec<Stimuli> = (0..=per_turn / 2)
                 .map(|k| {
                     let theta = TAU * k as f64 / per_turn as f64;
-                    let away = axis.from_axis(theta);
+                    let away = axis.away(theta);
                     [curve(away), 0.0, 0.0, 0.25, 0.0, 0.0]
                 })
                 .collect();
@@ -248,7 +248,8 @@ mod tests {
         let disc = average(Axis::Backward, &filter, &limb, samples, &[centre])[0];
         let along = filter.kernel(&limb).average(&theta, band.step(), &values, &[centre])[0];
         let total = disc[0] + disc[3];
-        assert!((total - along[0]).abs() < 5e-3, "{total} {}", along[0]);
+        // Straight chords miss the bend: the mean angle moves by R²/8 cot θ = 2.6e-5, times 350.
+        assert!((total - along[0]).abs() < 1e-2, "{total} {}", along[0]);
         assert!(disc[3] < 1e-2, "{disc:?}");
     }
 }

@@ -247,7 +247,10 @@ impl SizeDistribution {
             let top = self.top(power);
             let value = |u: f64| self.law.ln_density(u.exp()) + (power + 1.0) * u;
             let (start, bound) = (top.ln(), end.ln());
-            let gone = |u: f64| !(value(start) - value(u) < DEPTH);
+            let gone = |u: f64| {
+                let fall = value(start) - value(u);
+                fall.is_nan() || fall >= DEPTH
+            };
             let mut step = 1e-7;
             while step < (bound - start).abs() && !gone(start + step * (bound - start).signum()) {
                 step *= 2.0;
