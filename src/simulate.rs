@@ -341,8 +341,8 @@ fn bodies(scene: &Scene, plan: &Plan) -> Bodies {
         Some(sizes) => Bodies {
             effective_radius: sizes.effective_radius(),
             effective_variance: sizes.effective_variance(),
-            mean_volume: 4.0 / 3.0 * PI * sizes.mean_power(3),
-            mean_area: PI * sizes.mean_power(2),
+            mean_volume: 4.0 / 3.0 * PI * sizes.moment(3.0),
+            mean_area: PI * sizes.moment(2.0),
             ..Bodies::sphere(plan.radius)
         },
         None => Bodies::of_one_size(
@@ -366,10 +366,7 @@ fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
             SunDisc::Uniform => DiscOfSun::Uniform,
             SunDisc::LimbDarkened => DiscOfSun::LimbDarkened,
         },
-        sizes: scene
-            .size_distribution
-            .as_ref()
-            .is_some_and(|sizes| !matches!(sizes, SizeDistribution::Delta { .. })),
+        sizes: scene.size_distribution.as_ref().is_some_and(|sizes| sizes.single().is_none()),
         bandwidth: scene.bandwidth,
         filter: if filtered { gaussian_filter::standard_deviation(plan.radius) } else { 0.0 },
     }
@@ -451,10 +448,10 @@ fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Mean
         let orders = plan.orders.iter().map(|&p| Term::Order(p));
         Source::Debye(orders.chain(plan.forward_diffraction.then_some(Term::Diffraction)).collect())
     };
-    let one = SizeDistribution::Delta { radius: plan.radius };
+    let one = SizeDistribution::delta(plan.radius);
     let job = SphereJob {
         source,
-        sizes: scene.size_distribution.unwrap_or(one),
+        sizes: scene.size_distribution.clone().unwrap_or(one),
         medium: &scene.medium,
         wavelength,
         bandwidth: scene.bandwidth,

@@ -5,7 +5,8 @@
 
 use super::TableError;
 use super::raw_write::{Kind, NewDataset, NewFile};
-use super::schema::{degree, scale};
+use super::schema::scale;
+use crate::math::digits::degree;
 use crate::phase_table::{ERROR_BANDS, EnergyBudget, Slab, error_theta};
 use num_complex::Complex64;
 
