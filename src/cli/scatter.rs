@@ -6,7 +6,7 @@ use super::scatter_input::{
 };
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use gonio::farfield::gaussian_filter;
+use gonio::farfield::patches::gaussian_filter;
 use gonio::medium::Medium;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{

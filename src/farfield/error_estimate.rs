@@ -1,15 +1,15 @@
 //! How far a far field may be from the truth, as the method itself can tell.
 //!
 //! What the method is worth is measured on the sphere of equal volume ([`super::sphere_check`]). Of other
-//! shapes two things are added: what interpolation over azimuth costs, by tracing meridians half-way
-//! between those of the fan and with twice the knots; and how far beams and patches are from exact
+//! shapes two things are added: what interpolation over azimuth costs, by tracing planes half-way
+//! between those of the set and with twice the knots; and how far beams and patches are from exact
 //! series. Waves that are wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their
 //! phase.
 
 use super::direction::Direction;
-use super::fan::Fan;
+use super::far_field::{FarField, Source};
 use super::sphere_check::{SAMPLES, samples, spread};
-use super::{FarField, Source};
+use crate::farfield::azimuth::plane_set::PlaneSet;
 use crate::phase_table::ERROR_BANDS;
 use crate::trace::Tracer;
 
@@ -61,22 +61,22 @@ impl FarField<'_> {
         let sphere_squares = if tracer.shape().is_sphere() {
             *sphere
         } else {
-            spread(sphere, self.silhouette.deformation())
+            spread(sphere, self.silhouette().deformation())
         };
-        let Source::Meridians(fan, tangled) = &self.source else {
+        let Source::Planes(planes, fallback) = &self.source else {
             let found = self.patch_intensities(&theta, PATCH_AZIMUTH, true, interference, None);
             return ErrorEstimate::of_bands(&sphere_squares, &band_squares(&found));
         };
-        let azimuth = fan.checked_azimuth;
-        let (waves, mut wrong) = tangled.doubted(&theta, azimuth);
+        let azimuth = planes.checked_azimuth;
+        let (waves, mut wrong) = fallback.doubted(&theta, azimuth);
         if !tracer.shape().is_sphere() {
-            wrong.iter_mut().zip(fan.missed(tracer, &theta, azimuth)).for_each(|(w, m)| *w += m);
+            wrong.iter_mut().zip(planes.missed(tracer, &theta, azimuth)).for_each(|(w, m)| *w += m);
         }
-        let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
+        let rays = planes.columns(&theta, &[azimuth]).swap_remove(0);
         let forward = self.forward_wave();
         let found: Vec<f64> = (0..theta.len())
             .map(|i| {
-                let ahead = forward.beside_meridians(&Direction::new(theta[i], azimuth));
+                let ahead = forward.beside_planes(&Direction::new(theta[i], azimuth));
                 (rays[i] + waves[i] + ahead).s11()
             })
             .collect();
@@ -98,12 +98,12 @@ fn band_squares(found: &[f64]) -> [f64; ERROR_BANDS] {
     })
 }
 
-impl Fan {
+impl PlaneSet {
     /// `S11` of what interpolation adds or misses, at some scattering angles of an azimuth.
     fn missed(&self, tracer: &Tracer, theta: &[f64], azimuth: f64) -> Vec<f64> {
         let mut missed = vec![0.0; theta.len()];
-        for [fan, traced] in self.checks(tracer, theta, azimuth) {
-            for (sum, (a, b)) in missed.iter_mut().zip(fan.into_iter().zip(traced)) {
+        for [planes, traced] in self.checks(tracer, theta, azimuth) {
+            for (sum, (a, b)) in missed.iter_mut().zip(planes.into_iter().zip(traced)) {
                 *sum += (a - b).s11();
             }
         }

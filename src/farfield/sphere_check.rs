@@ -8,8 +8,9 @@
 //! the series a smaller one with the same absorption along its diameter speaks for it: no error of the
 //! method grows with the size. With a list of orders the truth are their Debye terms, else Lorenz–Mie.
 
-use super::fan::FanSettings;
-use super::{FarField, patch};
+use super::far_field::FarField;
+use super::patches::sheets;
+use crate::farfield::settings::FarFieldSettings;
 
 use crate::phase_table::{ERROR_BANDS, error_theta};
 use crate::series::SeriesError;
@@ -117,7 +118,7 @@ impl SphereCheck<'_> {
         match self.method {
             CheckedMethod::Meridians { deformed } => {
                 let tracer = tracer.with_curved_interface(x);
-                let settings = FanSettings {
+                let settings = FarFieldSettings {
                     size_parameter: x,
                     orders: self.orders,
                     tolerance: self.tolerance,
@@ -133,7 +134,7 @@ impl SphereCheck<'_> {
             CheckedMethod::Patches { rings, interference, filter } => {
                 let spokes = (2 * rings).min(SPOKES);
                 let wavefront = Wavefront::corners(&shape, rings, spokes, 0.0);
-                let sheets = patch::sheets(&tracer, &wavefront, self.orders);
+                let sheets = sheets::sheets(&tracer, &wavefront, self.orders);
                 let far_field = FarField::patches(&shape, sheets, x);
                 let azimuth = off_spoke(2 * rings, spokes);
                 far_field.patch_intensities(theta, azimuth, self.diffraction, interference, filter)
