@@ -4,15 +4,17 @@
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
-use crate::farfield::FarFieldSettings;
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
-use crate::farfield::{ErrorEstimate, FarField};
+use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
-use crate::phase_table::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
+use crate::phase_table::{
+    Averaging, Axes, Bodies, DiscOfSun, EnergyBudget, ForwardPeak, InvalidTable, PhaseTable, Slab,
+    TableHeader,
+};
 use crate::plan::{Engine, Plan, PlanError, Symmetry};
-use crate::scene::{Diffraction, Particle, Scene};
+use crate::scene::{Diffraction, Particle, Scene, SunDisc};
 use crate::series::SeriesError;
 use crate::series::debye::Term;
 use crate::series::mean::MeanError;
@@ -21,7 +23,7 @@ use crate::size_distribution::SizeDistribution;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// What can go wrong on the main path.
 #[derive(Debug, thiserror::Error)]
@@ -38,6 +40,8 @@ pub enum SimulateError {
         "energy does not add up at {wavelength_nm} nm: {residual:e} of the light is unaccounted for"
     )]
     Energy { wavelength_nm: f64, residual: f64 },
+    #[error("the table would be wrong: {0}")]
+    Wrong(#[from] InvalidTable),
 }
 
 /// Rays per side of the grid on which the energy budget is added up.
@@ -46,7 +50,8 @@ const ENERGY_GRID: usize = 100;
 const ENERGY_TOLERANCE: f64 = 1e-6;
 
 /// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
-/// with its index while the next one is being computed.
+/// with its index while the next one is being computed. No slab is handed on that
+/// [`Slab::validate`] refuses.
 ///
 /// # Errors
 /// The plan's, the medium's, or whatever `sink` returns; nothing is computed after an error.
@@ -55,11 +60,14 @@ pub fn simulate<E: From<SimulateError>>(
     mut sink: impl FnMut(usize, Slab) -> Result<(), E>,
 ) -> Result<(), E> {
     let plan = Plan::new(scene).map_err(SimulateError::from)?;
+    let header = header(scene, String::new())?;
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::sync_channel(1);
+        let header = &header;
         scope.spawn(move || {
             for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-                let slab = slab(scene, &plan, wavelength);
+                let slab = slab(scene, &plan, wavelength)
+                    .and_then(|slab| Ok(slab.validate(header, 0.0).map(|()| slab)?));
                 let failed = slab.is_err();
                 if sender.send((i, slab)).is_err() || failed {
                     return;
@@ -128,6 +136,8 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     } else {
         ErrorEstimate::UNKNOWN
     };
+    let known = !error_estimate.weighted.is_nan();
+    let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
         wavelength,
         index,
@@ -135,6 +145,10 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         caustic_order,
         scattering_cross_section: sections.scattering() * plan.radius * plan.radius,
         extinction_cross_section: sections.extinction * plan.radius * plan.radius,
+        absorption_cross_section: sections.absorption * plan.radius * plan.radius,
+        // Patches have no sound wave straight ahead.
+        forward_extinction: (in_table && far_field.straight_forward().is_some())
+            .then(|| straight_ahead(&far_field, computed[0]) * plan.radius * plan.radius),
         asymmetry,
         energy: Some(budget),
         sum_before_peak,
@@ -143,7 +157,17 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         error_by_band: error_estimate.by_band,
         error_by_direction: error_estimate.by_direction,
         left_out,
+        tolerance_met,
     })
+}
+
+/// Extinction by the optical theorem, in units of the squared radius, from what the columns of a table
+/// have at θ = 0 of one azimuth. `S1 + S2` there is a trace, the same in the plane of every azimuth.
+fn straight_ahead(far_field: &FarField, azimuth: f64) -> f64 {
+    let rays = far_field.columns(&[0.0], &[azimuth], false).swap_remove(0).amplitude[0];
+    let wave = far_field.forward_wave();
+    let whole = rays + wave.peak(&Direction::new(0.0, azimuth));
+    TAU * (whole.s1 + whole.s2).re / wave.size_parameter.powi(2)
 }
 
 /// What a table makes of the amplitudes of patches.
@@ -303,9 +327,52 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
         .into(),
         radius: plan.radius,
         sun_elevation: scene.sun_elevation,
+        bodies: Some(bodies(scene, &plan)),
+        averaging: averaging(scene, &plan),
+        tolerance: scene.tolerance,
         scene_toml: scene.toml.clone(),
         command_line,
     })
+}
+
+/// The particles of a scene as bodies.
+fn bodies(scene: &Scene, plan: &Plan) -> Bodies {
+    let bodies = match &scene.size_distribution {
+        Some(sizes) => Bodies {
+            effective_radius: sizes.effective_radius(),
+            effective_variance: sizes.effective_variance(),
+            mean_volume: 4.0 / 3.0 * PI * sizes.mean_power(3),
+            mean_area: PI * sizes.mean_power(2),
+            ..Bodies::sphere(plan.radius)
+        },
+        None => Bodies::of_one_size(
+            4.0 / 3.0 * PI * plan.radius.powi(3),
+            plan.shape.silhouette().area() * plan.radius.powi(2),
+        ),
+    };
+    match &scene.density {
+        Some(density) => bodies.with_density(Some(density.kg_m3), &density.source),
+        None => bodies,
+    }
+}
+
+/// What a scene averages over.
+fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
+    let rays = matches!(plan.engine, Engine::Meridians | Engine::Patches);
+    let filtered = rays && scene.diffraction == crate::scene::Diffraction::Gaussian;
+    Averaging {
+        sun_disc: match scene.sun_disc {
+            SunDisc::None => DiscOfSun::None,
+            SunDisc::Uniform => DiscOfSun::Uniform,
+            SunDisc::LimbDarkened => DiscOfSun::LimbDarkened,
+        },
+        sizes: scene
+            .size_distribution
+            .as_ref()
+            .is_some_and(|sizes| !matches!(sizes, SizeDistribution::Delta { .. })),
+        bandwidth: scene.bandwidth,
+        filter: if filtered { gaussian_filter::standard_deviation(plan.radius) } else { 0.0 },
+    }
 }
 
 /// Trace a coarse wavefront for the budget of energy by fate.
@@ -393,6 +460,7 @@ fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Mean
         bandwidth: scene.bandwidth,
         sun_disc: scene.sun_disc,
         tolerance: scene.tolerance,
+        allow_unmet: scene.allow_unmet_tolerance,
     };
     sphere_slab(&job, &scene.theta, scene.quantity, scene.forward_peak)
 }

@@ -1,7 +1,7 @@
 //! How far a far field may be from the truth, as the method itself can tell.
 //!
 //! What the method is worth is measured on the sphere of equal volume ([`super::sphere_check`]). Of other
-//! shapes two things are added: what interpolation over azimuth costs, by tracing planes half-way
+//! shapes two things are added: what interpolation over azimuth costs, by tracing meridians half-way
 //! between those of the set and with twice the knots; and how far beams and patches are from exact
 //! series. Waves that are wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their
 //! phase.
@@ -102,8 +102,8 @@ impl PlaneSet {
     /// `S11` of what interpolation adds or misses, at some scattering angles of an azimuth.
     fn missed(&self, tracer: &Tracer, theta: &[f64], azimuth: f64) -> Vec<f64> {
         let mut missed = vec![0.0; theta.len()];
-        for [planes, traced] in self.checks(tracer, theta, azimuth) {
-            for (sum, (a, b)) in missed.iter_mut().zip(planes.into_iter().zip(traced)) {
+        for [interpolated, traced] in self.checks(tracer, theta, azimuth) {
+            for (sum, (a, b)) in missed.iter_mut().zip(interpolated.into_iter().zip(traced)) {
                 *sum += (a - b).s11();
             }
         }

@@ -9,9 +9,8 @@ use super::forward::diffraction::ForwardDiffraction;
 use super::forward::wave::ForwardWave;
 use super::partial_waves::PartialWaves;
 use super::patches::collecting_sphere::CollectingSphere;
-use super::patches::gaussian_filter;
 use super::patches::interference::{Interference, PathInterpolation};
-use super::patches::sheets;
+use super::patches::{gaussian_filter, sheets};
 use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
@@ -54,7 +53,7 @@ impl<'a> FarField<'a> {
     }
 
     /// The same; `deformed` says whether small particles have partial waves.
-    pub(crate) fn with_waves(
+    pub(super) fn with_waves(
         tracer: &Tracer<'a>,
         settings: &FarFieldSettings,
         deformed: bool,

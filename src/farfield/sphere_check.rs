@@ -10,8 +10,7 @@
 
 use super::far_field::FarField;
 use super::patches::sheets;
-use crate::farfield::settings::FarFieldSettings;
-
+use super::settings::FarFieldSettings;
 use crate::phase_table::{ERROR_BANDS, error_theta};
 use crate::series::SeriesError;
 use crate::series::debye::{DebyeSeries, Term};

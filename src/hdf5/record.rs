@@ -15,6 +15,10 @@ pub(super) struct Record {
     pub index: Complex64,
     pub scattering_cross_section: f64,
     pub extinction_cross_section: f64,
+    pub absorption_cross_section: f64,
+    /// NaN where there is none, as in the file.
+    pub forward_extinction: f64,
+    pub tolerance_met: f64,
     pub asymmetry: f64,
     pub sum_before_peak: f64,
     pub peak_share: f64,
@@ -31,6 +35,9 @@ impl From<&Slab> for Record {
             index: slab.index,
             scattering_cross_section: slab.scattering_cross_section,
             extinction_cross_section: slab.extinction_cross_section,
+            absorption_cross_section: slab.absorption_cross_section,
+            forward_extinction: slab.forward_extinction.unwrap_or(f64::NAN),
+            tolerance_met: slab.tolerance_met.map_or(f64::NAN, |met| f64::from(u8::from(met))),
             asymmetry: slab.asymmetry,
             sum_before_peak: slab.sum_before_peak,
             peak_share: slab.peak_share,
@@ -46,7 +53,7 @@ impl From<&Slab> for Record {
 type Getter<T> = fn(&T) -> f64;
 
 /// Variables that every slab has: name, units, words, value.
-pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 9] = [
+pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
     ("scattering_cross_section", "m2", "scattering cross-section", |r| r.scattering_cross_section),
     ("extinction_cross_section", "m2", "extinction cross-section", |r| r.extinction_cross_section),
     ("asymmetry", "1", "mean cosine of the scattering angle", |r| r.asymmetry),
@@ -67,12 +74,26 @@ pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 9] = [
         "estimated relative error of the intensity, weighted by intensity, 10 to 170 degrees",
         |r| r.error_estimate,
     ),
+];
+
+/// The same, absent in tables of older versions.
+pub(super) const LATER: [(&str, &str, &str, Getter<Record>); 4] = [
     (
         "error_estimate_by_band",
         "1",
         "the same, root mean square over bands of 4 degrees relative to their own intensity",
         |r| r.error_by_band,
     ),
+    ("absorption_cross_section", "m2", "absorption cross-section", |r| r.absorption_cross_section),
+    (
+        "extinction_straight_ahead",
+        "m2",
+        "extinction by the optical theorem on the amplitude at theta = 0, NaN without diffraction",
+        |r| r.forward_extinction,
+    ),
+    ("tolerance_met", "1", "1 where the error asked for is met, 0 where not, NaN not known", |r| {
+        r.tolerance_met
+    }),
 ];
 
 /// Variables of the energy budget beside the orders.
@@ -91,7 +112,7 @@ pub(super) fn write_records(
     dimensions: &[&NewDataset],
     shape: &[u64],
 ) -> Result<(), TableError> {
-    for (name, units, words, value) in PLAIN {
+    for (name, units, words, value) in PLAIN.into_iter().chain(LATER) {
         let values: Vec<f64> = records.iter().map(|r| r.as_ref().map_or(f64::NAN, value)).collect();
         write_field(file, (name, units, words), &values, dimensions, shape)?;
     }
