@@ -4,6 +4,7 @@
 mod batch;
 mod bench;
 mod compare;
+mod cpu_time;
 mod export;
 mod info;
 mod interrupt;
@@ -157,6 +158,7 @@ fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
             Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
             Some(SimulateError::Series(inner)) => is_wrong_input(inner),
             Some(SimulateError::Mean(MeanError::Series(inner))) => is_wrong_input(inner),
+            Some(SimulateError::Mean(MeanError::Unmet { .. })) => false,
             Some(SimulateError::Mean(_)) => true,
             _ => false,
         }

@@ -139,6 +139,7 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
     sky(&scene, asked.unwrap_or(20.0).to_radians())?;
     camera(&scene, asked.unwrap_or(20.0).to_radians())?;
     let tables = tables(&scene.drops, drop_folder, asked.unwrap_or(20.0), polarised)?;
+    note_on_disc(&tables, scene.sun.disc);
     let elevation = asked.map(f64::to_radians).unwrap_or_else(|| {
         tables
             .iter()
@@ -154,6 +155,17 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
     let picture = render(&camera, &sky, &drops).map_err(wrong_input)?;
     picture.write_png(&args.output)?;
     Ok(())
+}
+
+/// Say where the sun's disc is in a table already, so that the picture leaves it alone.
+fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) {
+    if tables.iter().any(|(table, _)| table.header.averaging.has_sun_disc()) {
+        let wish = match asked {
+            Some(false) => "; sun.disc = false cannot take it out",
+            _ => " and is not applied again",
+        };
+        eprintln!("note: the sun's disc is in the table already{wish}");
+    }
 }
 
 /// Refuses a sun elsewhere than where the table of a drop that is no sphere has it.

@@ -3,7 +3,9 @@
 use super::UsageError;
 use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
-use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
+use gonio::phase_table::{
+    Averaging, Axes, Bodies, ERROR_BANDS, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+};
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use gonio::series::lorenz_mie::Sphere;
@@ -191,6 +193,9 @@ fn mie_table(
         shape: "sphere".into(),
         radius,
         sun_elevation: 0.0,
+        bodies: Some(Bodies::sphere(radius)),
+        averaging: Averaging::default(),
+        tolerance: f64::NAN,
         scene_toml: String::new(),
         command_line: String::new(),
     };
@@ -226,12 +231,17 @@ fn slab(
         caustic_order: None,
         scattering_cross_section: q.q_sca * area,
         extinction_cross_section: q.q_ext * area,
+        absorption_cross_section: q.q_abs * area,
+        forward_extinction: None,
         asymmetry: q.asymmetry,
         energy: None,
         sum_before_peak: f64::NAN,
         peak_share: 0.0,
         error_estimate: 1e-10,
         error_by_band: 1e-10,
+        tolerance_met: None,
+        error_by_direction: [1e-10; ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 

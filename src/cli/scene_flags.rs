@@ -60,6 +60,9 @@ pub struct ParticleFlags {
     /// Temperature of the medium
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub temperature_c: Option<f64>,
+    /// Density of the medium, for whatever is told per mass (default: the library's)
+    #[arg(long, value_name = "KG_M3", allow_negative_numbers = true)]
+    pub density_kg_m3: Option<f64>,
 }
 
 /// What shines on it.
@@ -123,6 +126,9 @@ pub struct ModelFlags {
     /// Rays across the silhouette (default: chosen from the tolerance)
     #[arg(long, value_name = "N")]
     pub rays_across: Option<u32>,
+    /// Have a mean that misses the tolerance marked in the table, in place of a failure
+    #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "true|false")]
+    pub allow_unmet_tolerance: Option<bool>,
 }
 
 /// Parser of a word from a closed set; `--help` lists the set.
@@ -157,6 +163,7 @@ impl ParticleFlags {
             model: self.model,
             temperature_c: self.temperature_c,
             medium,
+            density_kg_m3: self.density_kg_m3,
         }
     }
 }
@@ -187,6 +194,7 @@ impl SceneFlags {
                 orders: model.orders,
                 tolerance: model.tolerance,
                 rays_across: model.rays_across,
+                allow_unmet_tolerance: model.allow_unmet_tolerance,
             },
         }
     }

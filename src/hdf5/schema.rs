@@ -2,6 +2,7 @@
 
 use super::TableError;
 use super::chunk::{ChunkEncoder, encode_and_write, encoders};
+use super::circumstances::write_attributes;
 use super::output::WriteOptions;
 use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
 use crate::math::digits::to_digits;
@@ -208,6 +209,7 @@ pub(super) fn write_root(
     if let Some(bits) = options.bit_round {
         file.attribute_integer("bit_round", i32::from(bits))?;
     }
+    write_attributes(file, header)?;
     options.attributes.iter().try_for_each(|(name, text)| file.attribute(name, text))
 }
 

@@ -1,6 +1,7 @@
 //! Preview of a table: the phase function over the sphere of directions, curves through it, and
 //! the colours of its bow.
 
+use super::error_strip;
 use super::heat_map::power_of_ten;
 use super::{
     DirectionGrid, FONT, Picture, RenderError, Tristimulus, colour_bar, draw_pixels, ensure_font,
@@ -188,9 +189,16 @@ fn curves(table: &PhaseTable) -> Vec<Curve> {
 fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     let axes = &table.header.axes;
     let curves = curves(table);
+    let errors = error_strip::steps(table);
+    let height = area.dim_in_pixel().1;
+    let (area, strip) =
+        area.split_vertically(if errors.is_empty() { height } else { height * 3 / 4 });
+    if !errors.is_empty() {
+        error_strip::draw(&strip, errors, degrees(&axes.theta))?;
+    }
     let y = log_range(curves.iter().flat_map(|c| c.points.iter().map(|p| 10f64.powf(p.1))), 1.0);
-    let mut chart = ChartBuilder::on(area)
-        .caption("phase function by scattering angle", (FONT, 16))
+    let mut chart = ChartBuilder::on(&area)
+        .caption("phase function by scattering angle, and the stated error", (FONT, 16))
         .margin(12)
         .x_label_area_size(42)
         .y_label_area_size(64)

@@ -4,7 +4,7 @@ use super::choice::{Choice, Named, ShapeName, chosen};
 use super::error::SceneError;
 use super::file::SceneFile;
 use super::grid::Grid;
-use super::particle::{medium_of, particle_of, size_distribution};
+use super::particle::{density_of, medium_of, particle_of, size_distribution};
 use super::{Diffraction, Method, Orders, Particle, Scene, SunDisc};
 use crate::medium::MediumSpec;
 use crate::phase_table::{ForwardPeak, Quantity};
@@ -39,6 +39,7 @@ impl SceneFile {
         let scene = Scene {
             particle: particle_of(particle)?,
             size_distribution: size_distribution(particle)?,
+            density: density_of(particle, &wavelengths)?,
             medium: medium_of(particle, folder, &wavelengths)?,
             bandwidth: bandwidth(light.bandwidth_nm, &wavelengths)?,
             sun_disc: chosen(light.sun_disc, "light.sun_disc")?,
@@ -54,6 +55,7 @@ impl SceneFile {
             diffraction: chosen(model.diffraction, "model.diffraction")?,
             orders: orders(model.orders.as_ref())?,
             tolerance: tolerance(model.tolerance)?,
+            allow_unmet_tolerance: model.allow_unmet_tolerance.unwrap_or(false),
             rays_across: rays_across(model.rays_across)?,
             toml: resolved.to_toml(),
         };

@@ -127,7 +127,11 @@ impl Runs {
                     method(flags, Method::Debye);
                     flags.model.orders = list(&[order]);
                 })?;
-                Ok((order, rays(&|f| f.model.orders = list(&[order]))?, exact))
+                let alone = rays(&|f| {
+                    f.model.orders = list(&[order]);
+                    f.table.forward_peak = Some(Choice(ForwardPeak::Separate));
+                })?;
+                Ok((order, alone, exact))
             })
             .collect::<anyhow::Result<Vec<_>>>()?;
         let tests = std::iter::once(("rays", whole)).chain(tests).collect();
