@@ -11,12 +11,14 @@
 //! and its own plane of scattering, turned by χ: what is polarised along it counts with cos 2χ for the
 //! plane that is asked for.
 
-use super::Stimuli;
 use super::sampling::{AXIS_MARGIN, Band};
 use super::sun_filter::SunFilter;
 use crate::color::{LimbDarkening, SUN_ANGULAR_RADIUS};
 use crate::math::gauss_legendre;
 use std::f64::consts::PI;
+
+/// XYZ of the parallel part, then of the perpendicular one.
+pub type Stimuli = [f64; 6];
 
 /// Rings of the disc, and points of half a ring: beats of 3000 per radian turn 14 times from the
 /// centre to the limb.

@@ -19,7 +19,7 @@ use crate::medium::{Medium, MediumError};
 use crate::series::SeriesError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
-use about_axis::{Axis, Samples};
+use about_axis::{Axis, Samples, Stimuli};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use sampling::{AXIS_LIMIT, GOLDEN, TRANSITION, grid};
@@ -157,9 +157,6 @@ where
 
 /// Where the index that stands for the whole visible is taken.
 const MIDDLE: f64 = 550e-9;
-
-/// XYZ of the parallel part, then of the perpendicular one.
-type Stimuli = [f64; 6];
 
 /// One radius.
 fn column<A, E, P, F>(
