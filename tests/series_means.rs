@@ -468,7 +468,7 @@ fn small_particles() {
             (SizeLaw::Normal { mean: 20e-9, deviation: 2e-9 }, glass, 4e-8),
             (SizeLaw::LogNormal { median: 35e-9, spread: 0.3 }, glass, 4e-7),
             (
-                SizeLaw::LogNormal { median: 11.8e-9, spread: 0.6931 },
+                SizeLaw::LogNormal { median: 11.8e-9, spread: 0.69 },
                 Complex64::new(1.75, 0.44),
                 3e-6,
             ),
