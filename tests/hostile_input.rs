@@ -184,18 +184,18 @@ fn memory_is_limited() {
     let (code, message) = gonio(folder.path(), &["batch", "plan", "x.toml", "-o", "p.jsonl"]);
     assert_eq!(code, 0, "{message}");
     let run = ["batch", "run", "--plan", "p.jsonl", "--memory-limit"];
-    let (code, message) = gonio(folder.path(), &[&run[..], &["0.1"]].concat());
+    let (code, message) = gonio(folder.path(), &[&run[..], &["0.01"]].concat());
     assert_eq!(code, 2, "{message}");
     assert!(
-        message.contains("the limit is 102.4 MiB") && message.contains("--memory-limit"),
+        message.contains("the limit is 10.2 MiB") && message.contains("--memory-limit"),
         "{message}"
     );
     let (code, message) = gonio(folder.path(), &[&run[..], &["0.5"]].concat());
     assert_eq!(code, 0, "{message}");
     let table = ["table", "--radius-mm", "0.1", "--no-preview", "-o", "t.h5", "--memory-limit"];
-    let (code, message) = gonio(folder.path(), &[&table[..], &["0.1"]].concat());
+    let (code, message) = gonio(folder.path(), &[&table[..], &["0.01"]].concat());
     assert_eq!(code, 2, "{message}");
-    assert!(message.contains("table.theta_deg") && message.contains("102.4 MiB"), "{message}");
+    assert!(message.contains("table.theta_deg") && message.contains("10.2 MiB"), "{message}");
     let (code, message) = gonio(folder.path(), &[&table[..], &["nan"]].concat());
     assert_eq!(code, 2, "{message}");
     assert!(message.contains("GiB"), "{message}");

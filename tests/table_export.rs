@@ -292,7 +292,9 @@ fn a_sweep_of_distributions_makes_one_file() {
     close(&values(&path, "reff"), &[4.0, 6.0]);
     close(&values(&path, "veff"), &[0.05, 0.1]);
     let ext = values(&path, "ext");
-    let shadow = |reff: f64, v: f64| 2.2e-12 * 3.14159 * reff * reff * (1.0 - v) * (1.0 - 2.0 * v);
+    let shadow = |reff: f64, v: f64| {
+        2.2e-12 * std::f64::consts::PI * reff * reff * (1.0 - v) * (1.0 - 2.0 * v)
+    };
     for (i, (reff, v)) in [(4.0, 0.05), (4.0, 0.1), (6.0, 0.05), (6.0, 0.1)].into_iter().enumerate()
     {
         assert!((ext[i] / shadow(reff, v) - 1.0).abs() < 0.05, "{ext:?}");

@@ -6,7 +6,7 @@
 //! them over [`azimuth`] and adds them up over the samples. Orders whose caustics are too disordered for
 //! that are sums of [`gaussian_beams`], and those of small particles of [`partial_waves`]. The other, that
 //! of Sadeghi et al. 2012, is [`patches`]: sheets of rays cut into triangles on the sphere of directions,
-//! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`reference`]
+//! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`mod@reference`]
 //! is a brute-force sum that needs no asymptotics; [`sphere_check`] says what the method is worth. [`FarField`] is what the rest of the house uses.
 
 pub mod azimuth;

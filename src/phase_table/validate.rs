@@ -134,7 +134,7 @@ impl Slab {
         self.validate_sections()?;
         within("asymmetry", self.asymmetry, -1.0..=1.0)?;
         within("peak_share", self.peak_share, 0.0..=1.0)?;
-        within("left_out_share", self.left_out, 0.0..=1.0)?;
+        within("left_out_share", self.left_out, -1.0..=1.0)?;
         for (field, error) in [
             ("error_estimate", self.error_estimate),
             ("error_estimate_by_band", self.error_by_band),
@@ -159,7 +159,8 @@ impl Slab {
         };
         let sum = self.sum(&header.axes);
         let slack = NORMALISATION_TOLERANCE + rounding;
-        if header.axes.cover_sphere() && !((sum - expected).abs() <= slack) {
+        let off = (sum - expected).abs();
+        if header.axes.cover_sphere() && (off.is_nan() || off > slack) {
             let accepted = format!("{expected:.6} ± {slack} at {nm} nm");
             return Err(invalid("sum of P times solid angle", sum, &accepted));
         }
@@ -193,7 +194,8 @@ impl Slab {
         }
         match self.forward_extinction {
             Some(forward)
-                if !((extinction - forward).abs() <= FORWARD_TOLERANCE * forward.abs()) =>
+                if forward.is_nan()
+                    || (extinction - forward).abs() > FORWARD_TOLERANCE * forward.abs() =>
             {
                 let accepted = format!(
                     "{forward:e} m² ± {FORWARD_TOLERANCE} of it, by the optical theorem on the \
@@ -309,7 +311,8 @@ mod tests {
     fn whatever_is_wrong_is_named() {
         let (header, slab) = sound();
         slab.validate(&header, 0.0).unwrap();
-        let cases: [(&str, fn(&mut Slab)); 12] = [
+        type Spoil = fn(&mut Slab);
+        let cases: [(&str, Spoil); 12] = [
             ("asymmetry = NaN", |s| s.asymmetry = f64::NAN),
             ("asymmetry = 1.1", |s| s.asymmetry = 1.1),
             ("extinction_cross_section = 3.1e-12", |s| s.extinction_cross_section = 3.1e-12),

@@ -8,7 +8,7 @@
 //! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
 use super::debye::{DebyeSeries, Term};
-use super::lorenz_mie::Sphere;
+use super::lorenz_mie::{Sphere, sums};
 use super::mean::{Ensemble, MeanError};
 use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
@@ -66,6 +66,9 @@ struct Curves {
     /// Extinction by the optical theorem, where the elements have all that goes straight ahead.
     forward: Option<f64>,
     asymmetry: f64,
+    /// Share of the scattering that the terms of a list leave out; negative where those left out take
+    /// light away by interference.
+    left_out: f64,
     error: f64,
 }
 
@@ -134,7 +137,7 @@ pub fn sphere_slab(
         error_by_band: curves.error,
         tolerance_met: (!curves.error.is_nan()).then_some(curves.error <= job.tolerance),
         error_by_direction: [curves.error; ERROR_BANDS],
-        left_out: 0.0,
+        left_out: curves.left_out,
     })
 }
 
@@ -174,16 +177,19 @@ impl SphereJob<'_> {
         let x = TAU * radius / self.wavelength;
         let sphere = Sphere::new(x, index)?;
         let area = (self.wavelength / TAU).powi(2);
-        let (amplitudes, forward, error) = match &self.source {
+        let (amplitudes, forward, left_out, error) = match &self.source {
             Source::LorenzMie => {
                 let (s1, s2) = sphere.amplitudes(&[0.0])[0];
                 let forward = TAU * area * (s1 + s2).re;
-                (sphere.amplitudes_parallel(theta), Some(forward), SERIES_ERROR)
+                (sphere.amplitudes_parallel(theta), Some(forward), 0.0, SERIES_ERROR)
             }
             // Cross-sections are those of the whole sphere, the terms part of it.
             Source::Debye(terms) => {
                 let series = DebyeSeries::new(x, index)?;
-                (series.sum_parallel(terms, theta), None, debye_error(&series, terms))
+                let (a, b) = series.coefficients(terms);
+                let scattered = 2.0 / (x * x) * sums(&a, &b).0;
+                let left_out = 1.0 - scattered / sphere.efficiencies().q_sca;
+                (series.sum_parallel(terms, theta), None, left_out, debye_error(&series, terms))
             }
         };
         let shadow = PI * radius * radius;
@@ -195,6 +201,7 @@ impl SphereJob<'_> {
             absorption: q.q_abs * shadow,
             forward,
             asymmetry: q.asymmetry,
+            left_out,
             error,
         })
     }
@@ -216,6 +223,7 @@ impl SphereJob<'_> {
             absorption: mean.absorption,
             forward: None,
             asymmetry: mean.asymmetry,
+            left_out: 0.0,
             error: mean.error,
         })
     }

@@ -86,7 +86,7 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         peak_share: 0.5,
         error_estimate: 0.01,
         error_by_band: 0.05,
-        tolerance_met: Some(index % 2 == 0),
+        tolerance_met: Some(index.is_multiple_of(2)),
         error_by_direction: [0.05; gonio::phase_table::ERROR_BANDS],
         left_out: 0.0,
     }
