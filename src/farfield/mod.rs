@@ -18,6 +18,7 @@ mod beam;
 mod beam_launch;
 mod bow_wave;
 pub mod collecting_sphere;
+pub mod complex_wavefront;
 mod corresponding;
 mod cross_check;
 pub mod direction;
