@@ -1,13 +1,11 @@
-//! Meridians against Gaussian beams, two independent ways to the same wave.
+//! Meridians against the sum on a complex wavefront, two independent ways to the same wave.
 //!
 //! On strongly flattened particles rays may gather where no meridian tells (a fold across its plane, a
-//! branch that its scan does not reach). Beams see every ray, but are a few percent coarser. So for
-//! such particles both are computed at some directions, and an order that differs grossly is left to
-//! the beams.
+//! branch that its scan does not reach). The sum sees every ray. So for such particles both are computed
+//! at some directions, and an order that differs is left to the sum.
 
+use super::complex_wavefront::ComplexWavefront;
 use super::fan::{Fan, FanSettings};
-use super::gaussian_beams::GaussianBeams;
-use super::tangled::with_beams;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
@@ -15,7 +13,7 @@ use std::f64::consts::PI;
 /// Orders worth a check: higher ones are weak. Order 0 has its own wave at the edge.
 const ORDERS: std::ops::RangeInclusive<u32> = 1..=3;
 /// Order times deformation, and size parameter, from which on it is made: the one for a reason, the
-/// other so that beams are fine enough to tell.
+/// other so that the sum is exact enough to tell.
 const DEFORMED: f64 = 0.06;
 const LEAST_SIZE: f64 = 6000.0;
 /// Azimuths, scattering angles in each and in each band.
@@ -27,22 +25,20 @@ const BAND: usize = 16;
 const GROSS: f64 = 0.6;
 const FAINT: f64 = 0.05;
 
-/// Regular orders whose waves differ from those of beams by more than beams may err.
+/// Regular orders whose waves differ from those of the sum by more than it may err.
 pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings) -> Vec<u32> {
     let x = settings.size_parameter;
-    if !settings.checked || x < LEAST_SIZE || !with_beams(settings) {
+    if !settings.checked || x < LEAST_SIZE {
         return Vec::new();
     }
     let theta: Vec<f64> =
         (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
     let doubtful = |order: &u32| {
         let azimuths = fan.some_azimuths(*order, AZIMUTHS);
-        let beams = GaussianBeams::new(tracer, &[*order], &azimuths, x);
-        azimuths.into_iter().any(|phi| {
-            let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
-            beams.add(&theta, phi, &mut waves);
-            differs(&fan.columns_of(*order, &theta, phi), &waves)
-        })
+        let sum = ComplexWavefront::new(tracer, &[*order], x);
+        let waves = sum.columns(&theta, &azimuths);
+        let pairs = azimuths.into_iter().zip(waves);
+        pairs.into_iter().any(|(phi, waves)| differs(&fan.columns_of(*order, &theta, phi), &waves))
     };
     fan.regular_orders(DEFORMED, tracer)
         .into_iter()
@@ -52,12 +48,12 @@ pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings
 }
 
 /// Whether two columns differ grossly in a band that is not faint.
-fn differs(found: &[AmplitudeMatrix], beams: &[AmplitudeMatrix]) -> bool {
+fn differs(found: &[AmplitudeMatrix], sums: &[AmplitudeMatrix]) -> bool {
     let power = |column: &[AmplitudeMatrix]| column.iter().map(AmplitudeMatrix::s11).sum::<f64>();
-    let faint = FAINT * power(beams) * BAND as f64 / beams.len() as f64;
-    found.chunks(BAND).zip(beams.chunks(BAND)).any(|(found, beams)| {
-        let off: f64 = found.iter().zip(beams).map(|(f, b)| (*f - *b).s11()).sum();
-        off > GROSS * GROSS * power(beams).max(power(found))
-            && power(beams).max(power(found)) > faint
+    let faint = FAINT * power(sums) * BAND as f64 / sums.len() as f64;
+    found.chunks(BAND).zip(sums.chunks(BAND)).any(|(found, sums)| {
+        let off: f64 = found.iter().zip(sums).map(|(f, b)| (*f - *b).s11()).sum();
+        off > GROSS * GROSS * power(sums).max(power(found))
+            && power(sums).max(power(found)) > faint
     })
 }

@@ -3,7 +3,7 @@
 //! Two ways lead there. The main one follows, for each order, the rays that leave in one plane (a
 //! [`meridian`]), cuts them at their landmarks ([`arc`]) into [`segment`]s with the uniform formulas of
 //! [`fold`], [`rim`] and [`edge`], interpolates them over azimuth (a [`fan`]) and adds them up in a
-//! [`sweep`] over the samples; orders too tangled for that are sums of [`gaussian_beams`], and those of
+//! [`sweep`] over the samples; orders too tangled for that are sums on a [`complex_wavefront`], and those of
 //! small particles of [`partial_waves`]. The other,
 //! that of Sadeghi et al. 2012: sheets of rays cut into [`patch`]es, held in a [`collecting_sphere`];
 //! [`interference`] of all patches that contain a direction; diffraction by the [`gaussian_filter`].
@@ -14,8 +14,6 @@ mod arc_layout;
 mod arc_search;
 mod arc_segments;
 mod axis_wave;
-mod beam;
-mod beam_launch;
 mod bow_wave;
 pub mod collecting_sphere;
 pub mod complex_wavefront;
@@ -31,7 +29,6 @@ pub mod fold;
 pub mod forward_diffraction;
 pub mod forward_peak;
 pub mod forward_wave;
-pub mod gaussian_beams;
 pub mod gaussian_filter;
 pub mod huygens_fresnel;
 pub mod interference;
@@ -70,17 +67,17 @@ use tangled::Tangled;
 
 /// The far field of one wavelength, ready to be asked for columns or single directions.
 pub struct FarField<'a> {
-    source: Source,
+    source: Source<'a>,
     silhouette: ForwardDiffraction,
     size_parameter: f64,
     _shape: &'a Shape,
 }
 
 /// How amplitudes are found.
-enum Source {
+enum Source<'a> {
     Patches(CollectingSphere, Interference),
     /// Meridians, and something else for the orders whose meridians do not correspond.
-    Meridians(Box<Fan>, Tangled),
+    Meridians(Box<Fan>, Tangled<'a>),
 }
 
 impl<'a> FarField<'a> {

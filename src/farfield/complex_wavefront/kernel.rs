@@ -5,7 +5,7 @@
 //! side, plain arithmetic compiled for several instruction sets.
 
 use super::coarse::Channels;
-use super::{CUT_OFF, DIRECTION, FIELDS, PATH, Place, REFERENCE};
+use super::{DIRECTION, FIELDS, PATH, Place, REFERENCE};
 use crate::math::fused::multiply_add;
 use crate::math::phase::sin_cos_turns_with;
 use crate::math::vec3::{Field, Vec3};
