@@ -35,7 +35,7 @@ pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings
         (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
     let doubtful = |order: &u32| {
         let azimuths = fan.some_azimuths(*order, AZIMUTHS);
-        let sum = ComplexWavefront::new(tracer, &[*order], x);
+        let sum = ComplexWavefront::new(tracer, &[(*order, 1.0)], x);
         let waves = sum.columns(&theta, &azimuths);
         let pairs = azimuths.into_iter().zip(waves);
         pairs.into_iter().any(|(phi, waves)| differs(&fan.columns_of(*order, &theta, phi), &waves))

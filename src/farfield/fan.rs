@@ -95,6 +95,11 @@ impl Fan {
         }
     }
 
+    /// Leave all but a share of an order's amplitude to others.
+    pub(super) fn scale(&mut self, order: u32, share: f64) {
+        self.orders.iter_mut().filter(|fan| fan.order == order).for_each(|fan| fan.scale(share));
+    }
+
     /// Leave an order to others.
     pub(super) fn give_up(&mut self, order: u32) {
         self.orders.retain(|fan| fan.order != order);
@@ -157,7 +162,8 @@ impl Fan {
     ) -> Vec<[Vec<AmplitudeMatrix>; 2]> {
         let samples = Samples::new(theta);
         let check = |fan: &OrderFan| {
-            let traced = another(tracer, fan.order, azimuth, &fan.layout.finer())?;
+            let mut traced = another(tracer, fan.order, azimuth, &fan.layout.finer())?;
+            traced.iter_mut().for_each(|segment| segment.scale(fan.share));
             let mut sums = [Sums::new(&samples), Sums::new(&samples)];
             for (number, segment) in traced.iter().enumerate() {
                 let interpolated = fan.segment(number, azimuth);

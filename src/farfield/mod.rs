@@ -13,6 +13,7 @@ pub mod arc;
 mod arc_layout;
 mod arc_search;
 mod arc_segments;
+mod assignment;
 mod axis_wave;
 mod bow_wave;
 pub mod collecting_sphere;
@@ -98,12 +99,20 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FanSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let (waves, orders) = PartialWaves::of_small_particles(tracer, settings);
-        let settings = FanSettings { orders: &orders, ..settings.clone() };
-        let mut fan = Fan::new(tracer, &settings, &silhouette);
-        for order in cross_check::doubtful_orders(&fan, tracer, &settings) {
+        let share = |order: u32| assignment::share_of_sum(tracer, order);
+        let planes: Vec<u32> = orders.iter().copied().filter(|&p| share(p) < 1.0).collect();
+        let of_planes = FanSettings { orders: &planes, ..settings.clone() };
+        let mut fan = Fan::new(tracer, &of_planes, &silhouette);
+        for order in cross_check::doubtful_orders(&fan, tracer, &of_planes) {
             fan.give_up(order);
         }
-        let tangled = Tangled::new(tracer, waves, &fan.irregular, &settings);
+        let by_sum = |order: u32| if fan.irregular.contains(&order) { 1.0 } else { share(order) };
+        let shares: Vec<(u32, f64)> =
+            orders.iter().map(|&p| (p, by_sum(p))).filter(|(_, share)| *share > 0.0).collect();
+        for &(order, share) in &shares {
+            fan.scale(order, 1.0 - share);
+        }
+        let tangled = Tangled::new(tracer, waves, &shares, settings);
         Self {
             source: Source::Meridians(Box::new(fan), tangled),
             silhouette,

@@ -47,6 +47,8 @@ pub(super) struct OrderFan {
     pub about_axis: Vec<AxisWave>,
     pub axis_gap: f64,
     pub azimuths: Azimuths,
+    /// Share of the order's amplitude that is left to it.
+    pub share: f64,
 }
 
 /// Where the meridians stand.
@@ -132,8 +134,17 @@ impl OrderFan {
             }
             let spans = spans(&meridians);
             let azimuths = azimuths.clone();
-            Some(Self { order, meridians, layout, spans, about_axis, axis_gap, azimuths })
+            let share = 1.0;
+            Some(Self { order, meridians, layout, spans, about_axis, axis_gap, azimuths, share })
         })
+    }
+
+    /// Multiply all amplitudes.
+    pub(super) fn scale(&mut self, share: f64) {
+        self.share *= share;
+        for segment in self.meridians.iter_mut().flatten() {
+            segment.scale(share);
+        }
     }
 
     /// Whether the order has an axis gap about θ = 0 or π.

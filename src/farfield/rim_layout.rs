@@ -75,7 +75,8 @@ pub fn taper(
     const FEWEST_ZONES: f64 = 5.0;
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
-    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
+    let slight = std::env::var("SLIGHT").map_or(0.01, |s| s.parse().unwrap_or(0.01));
+    let first = if rotational || tangle < slight { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
     let b = bow(index, order).filter(|_| order >= first)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);

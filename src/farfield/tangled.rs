@@ -41,22 +41,22 @@ const OF_SUMS: f64 = 0.02;
 const OF_PARTIAL_WAVES: f64 = 2.0;
 
 impl<'a> Tangled<'a> {
-    /// For some orders, ascending.
+    /// For some orders, ascending, and the shares of their amplitudes.
     pub(super) fn new(
         tracer: &Tracer<'a>,
         waves: Option<PartialWaves>,
-        orders: &[u32],
+        shares: &[(u32, f64)],
         settings: &FanSettings,
     ) -> Self {
-        let (reflected, transmitted) = orders.split_at(orders.partition_point(|&order| order == 0));
+        let (reflected, transmitted) = shares.split_at(shares.partition_point(|share| share.0 == 0));
         let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
         let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt };
         let mut parts: Vec<Part<'a>> = waves.map(of_waves).into_iter().collect();
         if !reflected.is_empty() {
-            let method = patches(tracer, reflected, settings);
+            let method = patches(tracer, &[0], settings);
             parts.push(Part { method, doubt: OF_REFLECTION });
         }
-        if let Some(&lowest) = transmitted.first() {
+        if let Some(&(lowest, _)) = transmitted.first() {
             let sum = ComplexWavefront::new(tracer, transmitted, settings.size_parameter);
             parts.push(Part { method: Method::Sum(sum), doubt: OF_SUMS * f64::from(lowest) });
         }

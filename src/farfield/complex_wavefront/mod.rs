@@ -53,28 +53,35 @@ pub struct ComplexWavefront<'a> {
     sheets: Vec<Sheet>,
 }
 
-/// One order.
+/// One order, of which a share of the amplitude is summed.
 struct Sheet {
     order: u32,
+    share: f64,
     grid: CoarseGrid,
     lattice: Lattice,
 }
 
 impl<'a> ComplexWavefront<'a> {
-    /// Trace the coarse rays of some orders.
-    pub fn new(tracer: &Tracer<'a>, orders: &[u32], size_parameter: f64) -> Self {
-        Self::at(tracer, orders, size_parameter, PLACE)
+    /// Trace the coarse rays of some orders, for a share of the amplitude of each.
+    pub fn new(tracer: &Tracer<'a>, shares: &[(u32, f64)], size_parameter: f64) -> Self {
+        Self::at(tracer, shares, size_parameter, PLACE)
     }
 
     /// The same with the wavefront at another place: what changes is error.
-    pub fn at(tracer: &Tracer<'a>, orders: &[u32], size_parameter: f64, place: Place) -> Self {
-        let grids = CoarseGrid::of_orders(tracer, orders, size_parameter, place);
-        let sheets = orders
+    pub fn at(
+        tracer: &Tracer<'a>,
+        shares: &[(u32, f64)],
+        size_parameter: f64,
+        place: Place,
+    ) -> Self {
+        let orders: Vec<u32> = shares.iter().map(|share| share.0).collect();
+        let grids = CoarseGrid::of_orders(tracer, &orders, size_parameter, place);
+        let sheets = shares
             .iter()
             .zip(grids)
-            .map(|(&order, grid)| {
+            .map(|(&(order, share), grid)| {
                 let lattice = Lattice::new(&grid.steps);
-                Sheet { order, grid, lattice }
+                Sheet { order, share, grid, lattice }
             })
             .collect();
         Self { tracer: tracer.clone(), size_parameter, place, sheets }
@@ -129,7 +136,7 @@ impl<'a> ComplexWavefront<'a> {
                         None => self.traced(sheet, ring.alpha, psi),
                     };
                     let Some(channels) = found else { continue };
-                    let ray = Ray::new(&channels, ring.weight, self.place, x);
+                    let ray = Ray::new(&channels, ring.weight * sheet.share, self.place, x);
                     for &c in &near {
                         columns[c].add(&ray, window);
                     }
