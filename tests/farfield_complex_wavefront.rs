@@ -1,9 +1,10 @@
 //! The sum on a complex wavefront against Debye terms of the sphere, against an independent brute-force sum
 //! over real wavefronts of raindrops, and against itself with the wavefront elsewhere.
 
+use gonio::farfield::FarField;
+use gonio::farfield::FarFieldSettings;
 use gonio::farfield::complex_wavefront::{ComplexWavefront, PLACE, Place};
-use gonio::farfield::fan::FanSettings;
-use gonio::farfield::{FarField, patch};
+use gonio::farfield::patches::sheets;
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};
@@ -167,18 +168,17 @@ fn disordered_reflection_is_that_of_plain_rays() {
     let (shape, x) = (raindrop(3.0), size_parameter(3.0));
     let tracer = Tracer::new(&shape, INDEX, x, 0).with_curved_interface(x);
     let phi = 0.7;
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: x,
         orders: &[0],
         tolerance: 0.01,
         diffraction: false,
-        checked: true,
         azimuths: &[phi],
     };
     let found = FarField::meridians(&tracer, &settings);
     assert_eq!(found.irregular(), [0]);
     let wavefront = Wavefront::corners(&shape, 300, 600, 0.01);
-    let plain = FarField::patches(&shape, patch::sheets(&tracer, &wavefront, &[0]), x);
+    let plain = FarField::patches(&shape, sheets::sheets(&tracer, &wavefront, &[0]), x);
     let directions: Vec<(f64, f64)> =
         angles(30.0, 150.0, 240).into_iter().map(|theta| (theta, phi)).collect();
     let error = error(&found.scatter(&directions, false), &plain.scatter(&directions, false));

@@ -2,11 +2,11 @@
 //!
 //! Scattering planes serve as long as their rays correspond from azimuth to azimuth. How far rays of an
 //! order stray from those of a sphere grows with the order and with the deformation of the outline (see
-//! [`super::order_fan::tangle`]); beyond some of it the order is a sum on a complex wavefront
+//! [`super::azimuth::order_planes::caustic_disorder`]); beyond some of it the order is a sum on a complex wavefront
 //! ([`super::complex_wavefront`]), which asks nothing of its rays. Between two values of it both are
 //! computed and mixed, so that nothing jumps where one takes over from the other.
 
-use super::order_fan::tangle;
+use super::azimuth::order_planes::caustic_disorder;
 use crate::trace::Tracer;
 
 /// Order times deformation over which the sum takes over, for orders that cross the axis once and for
@@ -22,14 +22,12 @@ pub(super) fn share_of_sum(tracer: &Tracer, order: u32) -> f64 {
     if order == 0 || tracer.shape().rotational_symmetry() {
         return 0.0;
     }
-    share(order, tangle(tracer, order))
+    share(order, caustic_disorder(tracer, order))
 }
 
-fn share(order: u32, tangle: f64) -> f64 {
+fn share(order: u32, disorder: f64) -> f64 {
     let [from, to] = if order < FIRST_HIGH_ORDER { LOW_ORDERS } else { HIGH_ORDERS };
-    let off = std::env::var("OFF").map_or(0.0, |s| s.parse().unwrap_or(0.0));
-    let (from, to) = (from + off, to + off);
-    let t = ((tangle - from) / (to - from)).clamp(0.0, 1.0);
+    let t = ((disorder - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 

@@ -79,12 +79,7 @@ struct Node {
 
 impl CoarseGrid {
     /// The coarse rays of some orders, traced together.
-    pub(super) fn of_orders(
-        tracer: &Tracer,
-        orders: &[u32],
-        x: f64,
-        place: Place,
-    ) -> Vec<Self> {
+    pub(super) fn of_orders(tracer: &Tracer, orders: &[u32], x: f64, place: Place) -> Vec<Self> {
         let silhouette = tracer.shape().silhouette().tabulated();
         // one half of the spokes, the other half is their mirror image
         let half = SPOKES / 2 + 1;
@@ -93,7 +88,9 @@ impl CoarseGrid {
             .map(|n| {
                 let at = [alpha(n / half), TAU * (n % half) as f64 / SPOKES as f64];
                 let rays = rays(tracer, &silhouette, orders, at);
-                rays.iter().map(|exit| Node::new(exit.as_ref()?, &silhouette, at, x, place)).collect()
+                rays.iter()
+                    .map(|exit| Node::new(exit.as_ref()?, &silhouette, at, x, place))
+                    .collect()
             })
             .collect();
         let probes: Vec<Vec<Option<Channels>>> = (0..(RINGS - 1) * (half - 1))
@@ -197,8 +194,7 @@ impl CoarseGrid {
             .filter_map(|(a, b)| self.node(a, b))
             .collect();
         let middle = probe(i as usize, j as usize);
-        let known: Vec<Vec3<f64>> =
-            corners.iter().copied().chain(&middle).map(direction).collect();
+        let known: Vec<Vec3<f64>> = corners.iter().copied().chain(&middle).map(direction).collect();
         if known.is_empty() {
             return empty;
         }
@@ -362,10 +358,5 @@ mod tests {
             let sum: f64 = lagrange(t).iter().enumerate().map(|(k, w)| w * f(k as f64)).sum();
             assert!((sum - f(t)).abs() < 1e-12, "{t}");
         }
-    }
-}
-impl CoarseGrid {
-    pub(super) fn kinds(&self) -> [usize; 3] {
-        [Kind::Smooth, Kind::Edge, Kind::Empty].map(|k| self.cells.iter().filter(|c| c.kind == k).count())
     }
 }

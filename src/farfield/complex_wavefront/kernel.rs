@@ -83,9 +83,7 @@ impl Column {
         let last = theta.last().copied().unwrap_or(0.0);
         let padded = theta.iter().copied().chain(std::iter::repeat_n(last, LANES));
         let (sin, cos) = padded.map(f64::sin_cos).unzip();
-        let edge = |k: usize| {
-            theta.partition_point(|&t| t < PI * k as f64 / BUCKETS as f64) as u32
-        };
+        let edge = |k: usize| theta.partition_point(|&t| t < PI * k as f64 / BUCKETS as f64) as u32;
         Self {
             azimuth: phi.sin_cos(),
             sin,
@@ -199,12 +197,7 @@ impl Column {
             Complex64::new(self.rows[2 * e][i], self.rows[2 * e + 1][i]) * factor
         };
         (0..self.theta.len())
-            .map(|i| AmplitudeMatrix {
-                s2: at(0, i),
-                s3: at(1, i),
-                s4: -at(2, i),
-                s1: -at(3, i),
-            })
+            .map(|i| AmplitudeMatrix { s2: at(0, i), s3: at(1, i), s4: -at(2, i), s1: -at(3, i) })
             .collect()
     }
 }
@@ -223,12 +216,7 @@ fn add_waves(rows: &mut [Vec<f64>; 8], sin: &[f64], cos: &[f64], waves: &[Wave])
 }
 
 #[inline(always)]
-fn add_with<const FMA: bool>(
-    rows: &mut [Vec<f64>; 8],
-    sin: &[f64],
-    cos: &[f64],
-    waves: &[Wave],
-) {
+fn add_with<const FMA: bool>(rows: &mut [Vec<f64>; 8], sin: &[f64], cos: &[f64], waves: &[Wave]) {
     let [r0, r1, r2, r3, r4, r5, r6, r7] = rows;
     for wave in waves {
         let mut at = wave.from;

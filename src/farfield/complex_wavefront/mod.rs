@@ -16,6 +16,24 @@
 //! rays ([`coarse`]); where it is not, beside total reflection, rays are traced one by one. The points
 //! of the sum form a [`lattice`] whose steps follow from the width of the integrand; [`kernel`] adds one
 //! ray's wave to a column of scattering angles.
+//!
+//! What is not in it: waves beside the last ray of an order, at the rim or at total reflection, where the
+//! integrand goes on beyond real rays. There it errs by some percent (sphere, order 2 beyond 150°), for bows
+//! made next to the rim (orders from 4 on) by more.
+//!
+//! ```
+//! use gonio::farfield::complex_wavefront::ComplexWavefront;
+//! use gonio::shape::{RaindropModel, Shape};
+//! use gonio::trace::Tracer;
+//!
+//! let (radius, sun, x) = (2e-3, 0.35, 19_333.0);
+//! let drop = Shape::raindrop(radius, RaindropModel::BeardChuang1987, sun)?;
+//! let tracer = Tracer::new(&drop, 1.3314.into(), x, 2).with_curved_interface(x);
+//! let primary = ComplexWavefront::new(&tracer, &[(2, 1.0)], x);
+//! let column = primary.columns(&[2.40, 2.41], &[1.0]).swap_remove(0);
+//! assert!(column.iter().all(|s| s.s11() > 0.0));
+//! # Ok::<(), gonio::shape::ShapeError>(())
+//! ```
 
 mod coarse;
 mod kernel;
@@ -201,21 +219,6 @@ fn by_launch(
     let ((sin, cos), (sp, cp)) = (alpha.sin_cos(), psi.sin_cos());
     let by_alpha = [rim * cos * cp, rim * cos * sp];
     let by_psi = [sin * (slope * cp - rim * sp), sin * (slope * sp + rim * cp)];
-    [by_alpha, by_psi].map(|[a, b]| {
-        [exit.ds[0] * a + exit.ds[1] * b, exit.dx[0] * a + exit.dx[1] * b]
-    })
-}
-
-impl ComplexWavefront<'_> {
-    /// dev
-    pub fn describe(&self) -> String {
-        self.sheets
-            .iter()
-            .map(|s| {
-                let all: usize = s.lattice.rings.iter().map(|r| r.points_between(0).len() * SPOKES).sum();
-                let kinds = s.grid.kinds();
-                format!("p {} rings {} points {} smooth/edge/empty {:?}", s.order, s.lattice.rings.len(), all, kinds)
-            })
-            .collect()
-    }
+    [by_alpha, by_psi]
+        .map(|[a, b]| [exit.ds[0] * a + exit.ds[1] * b, exit.dx[0] * a + exit.dx[1] * b])
 }
