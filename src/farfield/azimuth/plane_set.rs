@@ -7,7 +7,7 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`PlaneSet::irregular`].
 
 use super::matching::another;
-use super::order_planes::{Azimuths, OrderPlanes, caustic_disorder, mirror};
+use super::order_planes::{OrderPlanes, mirror};
 use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::farfield::forward::penumbra::Penumbra;

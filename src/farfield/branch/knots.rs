@@ -38,7 +38,7 @@ pub struct Segment {
 
 impl Segment {
     /// Multiply all amplitudes.
-    pub(super) fn scale(&mut self, share: f64) {
+    pub(crate) fn scale(&mut self, share: f64) {
         let pair = matches!(self.kind, Kind::Pair { .. });
         let (from, count) = if pair { (PAIR_AMPLITUDE, 16) } else { (PLAIN_AMPLITUDE, 8) };
         for knot in &mut self.knots {

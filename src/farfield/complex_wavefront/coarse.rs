@@ -5,17 +5,15 @@
 //! through six rings and six spokes give every channel between them. A cell where they fail, found by
 //! tracing a ray in its middle, has its rays traced one by one.
 
-use super::{DIRECTION, FIELDS, PATH, Place, REFERENCE, by_launch, channels};
+use super::channels::{
+    CHANNELS, Channels, DIRECTION, FIELDS, PATH, Place, REFERENCE, by_launch, channels,
+};
 use crate::math::vec3::Vec3;
 use crate::shape::Silhouette;
 use crate::trace::{Exit, Tracer};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// Channels of a ray, one of them spare.
-pub(super) const CHANNELS: usize = 20;
-pub(super) type Channels = [f64; CHANNELS];
 
 /// Rings and spokes.
 pub(super) const RINGS: usize = 160;

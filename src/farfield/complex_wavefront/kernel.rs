@@ -4,8 +4,7 @@
 //! `cos θ` and `sin θ`: `ix[W + τ - sin θ c_ρ - cos θ c_z]`, `c = r + τs`. Eight angles are handled side by
 //! side, plain arithmetic compiled for several instruction sets.
 
-use super::coarse::Channels;
-use super::{DIRECTION, FIELDS, PATH, Place, REFERENCE};
+use super::channels::{Channels, DIRECTION, FIELDS, PATH, Place, REFERENCE};
 use crate::math::fused::multiply_add;
 use crate::math::phase::sin_cos_turns_with;
 use crate::math::vec3::{Field, Vec3};
