@@ -11,8 +11,11 @@ use crate::trace::Tracer;
 
 /// Order times deformation over which the sum takes over, for orders that cross the axis once and for
 /// those whose bows are made near the rim.
-const LOW_ORDERS: [f64; 2] = [0.105, 0.125];
+const LOW_ORDERS: [f64; 2] = [0.14, 0.165];
 const HIGH_ORDERS: [f64; 2] = [0.09, 0.1];
+/// Bodies that look the same from below keep their rays in order further: planes of a spheroid of axis ratio
+/// 0.9 are reciprocal within 1e-4 up to order 3.
+const OF_MIRROR_SYMMETRY: f64 = 2.0;
 /// The first of the latter.
 const FIRST_HIGH_ORDER: u32 = 4;
 
@@ -22,7 +25,8 @@ pub(super) fn share_of_sum(tracer: &Tracer, order: u32) -> f64 {
     if order == 0 || tracer.shape().rotational_symmetry() {
         return 0.0;
     }
-    share(order, caustic_disorder(tracer, order))
+    let more = if tracer.shape().mirror_symmetry() { OF_MIRROR_SYMMETRY } else { 1.0 };
+    share(order, caustic_disorder(tracer, order) / more)
 }
 
 fn share(order: u32, disorder: f64) -> f64 {
