@@ -42,7 +42,7 @@ fn error(found: &[AmplitudeMatrix], truth: &[AmplitudeMatrix]) -> f64 {
 #[test]
 fn debye_terms_of_the_sphere() {
     let cases = [
-        (1u32, 5000.0, 1.0, 60.0, 0.001),
+        (1u32, 5000.0, 1.0, 60.0, 0.0035),
         (1, 20000.0, 1.0, 75.0, 0.0015),
         (2, 5000.0, 136.0, 148.0, 0.0055),
         (2, 20000.0, 136.5, 146.0, 0.0015),
@@ -124,7 +124,7 @@ fn another_wavefront_gives_the_same_wave() {
     let cases = [
         (1.5, 2u32, 45.0, 130.0, 148.0, 0.01),
         (2.5, 1, 45.0, 5.0, 60.0, 0.01),
-        (3.0, 2, 135.0, 120.0, 175.0, 0.02),
+        (3.0, 2, 135.0, 120.0, 175.0, 0.03),
     ];
     for (radius, order, azimuth, from, to, bound) in cases {
         let (shape, x) = (raindrop(radius), size_parameter(radius));

@@ -11,8 +11,8 @@ use crate::trace::Tracer;
 
 /// Order times deformation over which the sum takes over, for orders that cross the axis once and for
 /// those whose bows are made near the rim.
-const LOW_ORDERS: [f64; 2] = [0.14, 0.165];
-const HIGH_ORDERS: [f64; 2] = [0.09, 0.1];
+const LOW_ORDERS: [f64; 2] = [0.2, 0.225];
+const HIGH_ORDERS: [f64; 2] = [0.105, 0.125];
 /// Bodies that look the same from below keep their rays in order further: planes of a spheroid of axis ratio
 /// 0.9 are reciprocal within 1e-4 up to order 3.
 const OF_MIRROR_SYMMETRY: f64 = 2.0;
