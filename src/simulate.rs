@@ -129,13 +129,9 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
-    let error_estimate = if plan.checked {
-        let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-        let tracer = tracer(plan, index, size_parameter);
-        far_field.error_estimate(&tracer, &squares, treatment.interference)
-    } else {
-        ErrorEstimate::UNKNOWN
-    };
+    let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
+    let tracer = tracer(plan, index, size_parameter);
+    let error_estimate = far_field.error_estimate(&tracer, &squares, treatment.interference);
     let known = !error_estimate.weighted.is_nan();
     let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
@@ -414,7 +410,6 @@ fn far_field<'a>(
             orders: &plan.orders,
             tolerance: plan.tolerance,
             diffraction,
-            checked: plan.checked,
             azimuths: &azimuths,
         };
         return FarField::meridians(&tracer, &settings);

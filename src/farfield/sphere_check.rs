@@ -122,7 +122,6 @@ impl SphereCheck<'_> {
                     orders: self.orders,
                     tolerance: self.tolerance,
                     diffraction: self.diffraction && self.orders.contains(&0),
-                    checked: false,
                     azimuths: &[0.0],
                 };
                 let far_field = FarField::with_waves(&tracer, &settings, deformed);
