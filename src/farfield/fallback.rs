@@ -37,8 +37,6 @@ const PATCH_RINGS: f64 = 90.0;
 /// Doubt of patches; of sums, as many times as the number of the lowest order.
 const OF_REFLECTION: f64 = 0.07;
 const OF_SUMS: f64 = 0.02;
-/// Doubt of partial waves times the size parameter.
-const OF_PARTIAL_WAVES: f64 = 2.0;
 
 impl<'a> FallbackField<'a> {
     /// For some orders, ascending, and the shares of their amplitudes.
@@ -50,8 +48,8 @@ impl<'a> FallbackField<'a> {
     ) -> Self {
         let (reflected, transmitted) =
             shares.split_at(shares.partition_point(|&(order, _)| order == 0));
-        let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
-        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt };
+        // theirs is measured on the sphere of equal volume
+        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt: 0.0 };
         let mut parts: Vec<Part<'a>> = waves.map(of_waves).into_iter().collect();
         if !reflected.is_empty() {
             let method = patches(tracer, &[0], settings);

@@ -7,6 +7,7 @@
 pub mod camera;
 mod color_diagram;
 mod directions;
+mod error_strip;
 mod font;
 mod heat_map;
 mod picture;

@@ -13,7 +13,7 @@ use super::mean::{Ensemble, MeanError};
 use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
-use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
+use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, Quantity, Slab};
 use crate::scene::SunDisc;
 use crate::size_distribution::SizeDistribution;
 use ndarray::Array3;
@@ -41,6 +41,8 @@ pub struct SphereJob<'a> {
     pub sun_disc: SunDisc,
     /// Relative error of means asked for.
     pub tolerance: f64,
+    /// A mean that misses it is marked in the slab rather than an error.
+    pub allow_unmet: bool,
 }
 
 /// Lobes of the forward peak that are averaged over cells, and samples per lobe.
@@ -60,6 +62,9 @@ struct Curves {
     elements: Vec<[f64; 4]>,
     scattering: f64,
     extinction: f64,
+    absorption: f64,
+    /// Extinction by the optical theorem, where the elements have all that goes straight ahead.
+    forward: Option<f64>,
     asymmetry: f64,
     error: f64,
 }
@@ -76,7 +81,7 @@ pub fn sphere_slab(
     forward_peak: ForwardPeak,
 ) -> Result<Slab, MeanError> {
     let (wavelength, index) = (job.wavelength, job.medium.index(job.wavelength)?);
-    let largest = TAU * job.sizes.limits(job.tolerance).1 / wavelength;
+    let largest = TAU * job.sizes.limits(job.tolerance, TAU / wavelength).1 / wavelength;
     let mut cells = Vec::new();
     if forward_peak == ForwardPeak::CellAverage {
         cells = coarse_cells(theta, largest);
@@ -119,12 +124,17 @@ pub fn sphere_slab(
         caustic_order: None,
         scattering_cross_section: curves.scattering,
         extinction_cross_section: curves.extinction,
+        absorption_cross_section: curves.absorption,
+        forward_extinction: curves.forward,
         asymmetry: curves.asymmetry,
         energy: None,
         sum_before_peak,
         peak_share: 0.0,
         error_estimate: curves.error,
         error_by_band: curves.error,
+        tolerance_met: (!curves.error.is_nan()).then_some(curves.error <= job.tolerance),
+        error_by_direction: [curves.error; ERROR_BANDS],
+        left_out: 0.0,
     })
 }
 
@@ -157,25 +167,33 @@ impl SphereJob<'_> {
 
     /// The curves of a point-like sun.
     fn curves(&self, index: Complex64, theta: &[f64]) -> Result<Curves, MeanError> {
-        let radius = match self.sizes {
-            SizeDistribution::Delta { radius } if self.bandwidth == 0.0 => radius,
+        let radius = match self.sizes.single() {
+            Some(radius) if self.bandwidth == 0.0 => radius,
             _ => return self.mean_curves(theta),
         };
         let x = TAU * radius / self.wavelength;
         let sphere = Sphere::new(x, index)?;
-        let (amplitudes, error) = match &self.source {
-            Source::LorenzMie => (sphere.amplitudes_parallel(theta), SERIES_ERROR),
+        let area = (self.wavelength / TAU).powi(2);
+        let (amplitudes, forward, error) = match &self.source {
+            Source::LorenzMie => {
+                let (s1, s2) = sphere.amplitudes(&[0.0])[0];
+                let forward = TAU * area * (s1 + s2).re;
+                (sphere.amplitudes_parallel(theta), Some(forward), SERIES_ERROR)
+            }
+            // Cross-sections are those of the whole sphere, the terms part of it.
             Source::Debye(terms) => {
-                (DebyeSeries::new(x, index)?.sum_parallel(terms, theta), f64::NAN)
+                let series = DebyeSeries::new(x, index)?;
+                (series.sum_parallel(terms, theta), None, debye_error(&series, terms))
             }
         };
-        let area = (self.wavelength / TAU).powi(2);
         let shadow = PI * radius * radius;
         let q = sphere.efficiencies();
         Ok(Curves {
             elements: amplitudes.into_iter().map(|pair| of_pair(pair, area)).collect(),
             scattering: q.q_sca * shadow,
             extinction: q.q_ext * shadow,
+            absorption: q.q_abs * shadow,
+            forward,
             asymmetry: q.asymmetry,
             error,
         })
@@ -183,21 +201,36 @@ impl SphereJob<'_> {
 
     fn mean_curves(&self, theta: &[f64]) -> Result<Curves, MeanError> {
         let ensemble = Ensemble {
-            sizes: self.sizes,
+            sizes: self.sizes.clone(),
             medium: self.medium,
             wavelength: self.wavelength,
             bandwidth: self.bandwidth,
             tolerance: self.tolerance,
+            accept_unmet: self.allow_unmet,
         };
         let mean = ensemble.mean(theta)?;
         Ok(Curves {
             elements: mean.elements,
             scattering: mean.scattering,
             extinction: mean.scattering + mean.absorption,
+            absorption: mean.absorption,
+            forward: None,
             asymmetry: mean.asymmetry,
             error: mean.error,
         })
     }
+}
+
+/// Relative error of the intensity that a sum from diffraction and order 0 on has for its missing
+/// orders, root mean square over their phases; NaN for single orders, which stand for themselves.
+fn debye_error(series: &DebyeSeries, terms: &[Term]) -> f64 {
+    let count = terms.len().saturating_sub(1) as u32;
+    let whole = (0..count).all(|order| terms.contains(&Term::Order(order)));
+    if !(whole && count > 0 && terms.contains(&Term::Diffraction)) {
+        return f64::NAN;
+    }
+    // ΔI/I = 2 |ΔS/S| cos of the phase between them.
+    (std::f64::consts::SQRT_2 * series.missing_share(count - 1)).max(SERIES_ERROR)
 }
 
 fn of_pair((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {
@@ -257,12 +290,13 @@ mod tests {
                     (0..count).map(|i| PI * i as f64 / (count - 1) as f64).collect();
                 let job = SphereJob {
                     source: Source::LorenzMie,
-                    sizes: SizeDistribution::Delta { radius },
+                    sizes: SizeDistribution::delta(radius),
                     medium: &Medium::Constant(Complex64::new(1.333, 0.0)),
                     wavelength: 5e-7,
                     bandwidth: 0.0,
                     sun_disc: SunDisc::None,
                     tolerance: 1e-3,
+                    allow_unmet: false,
                 };
                 let (quantity, peak) = (Quantity::PhaseFunction, ForwardPeak::CellAverage);
                 let slab = sphere_slab(&job, &theta, quantity, peak).unwrap();

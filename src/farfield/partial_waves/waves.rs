@@ -50,15 +50,16 @@ pub struct PartialWaves {
 type Potentials = Vec<[Complex64; 4]>;
 
 impl PartialWaves {
-    /// The transmitted orders of a small particle, and the orders that are left to other methods.
+    /// The transmitted orders of a small particle, and the orders that are left to other methods; only
+    /// `deformed` particles have them.
     pub(crate) fn of_small_particles(
         tracer: &Tracer,
         settings: &FarFieldSettings,
+        deformed: bool,
     ) -> (Option<Self>, Vec<u32>) {
         let (x, all) = (settings.size_parameter, settings.orders);
         let first = all.partition_point(|&order| order == 0);
-        let symmetric = tracer.shape().rotational_symmetry();
-        if x >= FIRST_TOO_LARGE || first == all.len() || symmetric {
+        if x >= FIRST_TOO_LARGE || first == all.len() || !deformed {
             return (None, all.to_vec());
         }
         let (waves, missed) = Self::new(tracer, &all[first..], x);
