@@ -1,6 +1,6 @@
 //! The main path on one page: plan, trace, collect, interfere, diffract, tabulate.
 //!
-//! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (meridians, beams, or
+//! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (planes, sums, or
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 

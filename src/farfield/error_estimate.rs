@@ -2,7 +2,7 @@
 //!
 //! What the method is worth is measured on the sphere of equal volume ([`super::sphere_check`]). Of other
 //! shapes two things are added: what interpolation over azimuth costs, by tracing meridians half-way
-//! between those of the set and with twice the knots; and how far beams and patches are from exact
+//! between those of the set and with twice the knots; and how far sums and patches are from exact
 //! series. Waves that are wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their
 //! phase.
 
