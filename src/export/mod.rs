@@ -15,6 +15,7 @@ mod legendre;
 pub mod libradtran;
 pub mod mitsuba;
 pub mod sasktran2;
+#[cfg(feature = "pictures")]
 pub mod strip;
 
 use crate::color::ColorError;
@@ -27,6 +28,7 @@ pub enum ExportError {
     Invalid { field: String, value: String, accepted: String },
     #[error("colours: {0}")]
     Color(#[from] ColorError),
+    #[cfg(feature = "pictures")]
     #[error("picture: {0}")]
     Png(#[from] png::EncodingError),
     #[error(transparent)]
@@ -39,6 +41,7 @@ impl ExportError {
         match self {
             ExportError::Invalid { .. } | ExportError::Color(_) => true,
             ExportError::Table(error) => error.is_wrong_input(),
+            #[cfg(feature = "pictures")]
             ExportError::Png(_) => false,
         }
     }
