@@ -72,7 +72,6 @@ fn column_rate(shape: &Shape, index: Complex64, size: f64) {
         orders: &orders,
         tolerance: 0.01,
         diffraction: false,
-        checked: true,
         azimuths: &azimuths,
     };
     let start = Instant::now();

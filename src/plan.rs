@@ -70,9 +70,6 @@ pub struct Plan {
     pub forward_diffraction: bool,
     /// Relative error asked for.
     pub tolerance: f64,
-    /// Whether rays of flattened particles are checked by a second method; many runs of much the same
-    /// particle may do without.
-    pub checked: bool,
     /// Grid of the patches: rings from centre to rim, and spokes.
     pub rings: usize,
     pub spokes: usize,
@@ -120,7 +117,6 @@ impl Plan {
             orders,
             forward_diffraction,
             tolerance: scene.tolerance,
-            checked: true,
             rings,
             spokes: 2 * rings,
             reasons,
@@ -148,7 +144,6 @@ impl Plan {
             orders,
             forward_diffraction,
             tolerance,
-            checked: true,
             rings,
             spokes: 2 * rings,
             reasons,

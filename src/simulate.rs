@@ -271,7 +271,6 @@ fn far_field<'a>(
             orders: &plan.orders,
             tolerance: plan.tolerance,
             diffraction,
-            checked: plan.checked,
             azimuths: &azimuths,
         };
         return FarField::meridians(&tracer, &settings);

@@ -85,7 +85,6 @@ fn primary_bow_of_a_raindrop() {
                 orders: &[2],
                 tolerance: 0.01,
                 diffraction: false,
-                checked: true,
                 azimuths: &[phi],
             };
             let single: Vec<(f64, f64)> = theta.iter().map(|&t| (t, phi)).collect();
@@ -149,7 +148,6 @@ fn order_at(
         orders: &[order],
         tolerance: 0.01,
         diffraction: false,
-        checked: true,
         azimuths,
     };
     let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, phi)).collect();

@@ -42,7 +42,6 @@ fn rays_of(
         orders,
         tolerance: 0.01,
         diffraction,
-        checked: true,
         azimuths: &[0.4],
     };
     let far_field = FarField::meridians(&tracer, &settings);
@@ -205,4 +204,58 @@ fn dark_sides_stay_dark() {
         println!("x = {x}: scattered power {ratio:.4} of the exact one");
         assert!((0.8..1.25).contains(&ratio), "x = {x}: {ratio}");
     }
+}
+
+/// A raindrop of 400.1 µm, all but a sphere, against Debye terms in bands of 5°: within 1.5 times the
+/// error of the sphere of 400.0 µm, and 1 %. Bands that hold less than a thousandth of the order's mean
+/// power are left out. A known defect stands beside the bound it widens.
+#[test]
+fn drops_that_are_all_but_round_are_as_good_as_spheres() {
+    use gonio::shape::RaindropModel;
+    const BANDS: usize = 34;
+    const IN_BAND: usize = 60;
+    let (index, x) = (Complex64::new(1.3314, 0.0), std::f64::consts::TAU * 400.1e-6 / 650e-9);
+    let sun = 20f64.to_radians();
+    let drop = Shape::raindrop(400.1e-6, RaindropModel::BeardChuang1987, sun).unwrap();
+    assert!(!drop.rotational_symmetry());
+    let count = (BANDS * IN_BAND) as f64;
+    let theta: Vec<f64> = (0..BANDS * IN_BAND)
+        .map(|i| (5.0 + 170.0 * (i as f64 + 0.5) / count).to_radians())
+        .collect();
+    let series = DebyeSeries::new(x, index).unwrap();
+    let mut faults = Vec::new();
+    for order in 1..=4 {
+        let exact = series.sum_parallel(&[Term::Order(order)], &theta);
+        let of = |shape: &Shape| rays_of(shape, x, index, &[order], false, &theta);
+        let (sphere, drop) = (of(&Shape::sphere()), of(&drop));
+        let power = |e: &[(Complex64, Complex64)]| -> f64 {
+            e.iter().map(|(a, b)| a.norm_sqr() + b.norm_sqr()).sum()
+        };
+        for band in 0..BANDS {
+            let part = band * IN_BAND..(band + 1) * IN_BAND;
+            let truth = &exact[part.clone()];
+            if power(truth) < 1e-3 * power(&exact) / BANDS as f64 {
+                continue;
+            }
+            let error = |found: &[AmplitudeMatrix]| {
+                let off: f64 = found[part.clone()]
+                    .iter()
+                    .zip(truth)
+                    .map(|(f, e)| (f.s1 - e.0).norm_sqr() + (f.s2 - e.1).norm_sqr())
+                    .sum();
+                (off / power(truth)).sqrt()
+            };
+            let (of_sphere, of_drop) = (error(&sphere), error(&drop));
+            if of_drop > 1.5 * of_sphere + 0.01 {
+                let from = 5 + 5 * band;
+                faults.push(format!(
+                    "p = {order}, {from}°: {:.2} %, sphere {:.2} %",
+                    1e2 * of_drop,
+                    1e2 * of_sphere
+                ));
+            }
+        }
+    }
+    println!("{}", faults.join("\n"));
+    assert!(faults.is_empty(), "{} bands:\n{}", faults.len(), faults.join("\n"));
 }

@@ -1,12 +1,11 @@
 //! Orders that planes do not serve: sums of partial waves where the particle is small; else, where
-//! planes do not correspond, sums of beams, whose error falls like `1/√x`, or patches for
-//! particles so small, or tolerances so coarse, that those do better.
+//! planes do not correspond, sums on a complex wavefront.
 //!
-//! Order 0 stays with patches: its rays are strongest where launch points end, at the rim, which beams
-//! would show as an edge that shines.
+//! Order 0 stays with patches: its rays are strongest where launch points end, at the rim, which a sum
+//! over them would show as an edge that shines.
 
+use crate::farfield::complex_wavefront::ComplexWavefront;
 use crate::farfield::direction::Direction;
-use crate::farfield::gaussian_beams::GaussianBeams;
 use crate::farfield::partial_waves::PartialWaves;
 use crate::farfield::patches::collecting_sphere::CollectingSphere;
 use crate::farfield::patches::interference::{Interference, PathInterpolation};
@@ -16,65 +15,51 @@ use crate::optics::AmplitudeMatrix;
 use crate::trace::{Tracer, Wavefront};
 
 /// The waves of tangled orders.
-pub(crate) struct FallbackField(Vec<Part>);
+pub(crate) struct FallbackField<'a>(Vec<Part<'a>>);
 
 /// Orders that one method serves.
-struct Part {
-    method: Method,
+struct Part<'a> {
+    method: Method<'a>,
     /// Share of its amplitude by which its wave may be wrong, measured against Debye terms.
     doubt: f64,
 }
 
-enum Method {
+enum Method<'a> {
     PartialWaves(PartialWaves),
-    Beams(GaussianBeams),
+    Sum(ComplexWavefront<'a>),
     Patches(CollectingSphere, Interference),
 }
 
-/// Size parameter from which on tangled orders are sums of beams, and the tolerance up to which they are
-/// worth their time: ten times that of patches where few directions are asked for.
-const FIRST_OF_BEAMS: f64 = 1000.0;
-const COARSEST_OF_BEAMS: f64 = 0.03;
 /// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`: patches may not exceed it.
 const FOLD_JACOBIAN: f64 = 0.5;
 /// Rings of the patch grid for tangled orders at a tolerance of 1 %.
 const PATCH_RINGS: f64 = 90.0;
-/// Doubt of patches, without and with bows; of beams, as many times as the number of the lowest order.
+/// Doubt of patches; of sums, as many times as the number of the lowest order.
 const OF_REFLECTION: f64 = 0.07;
-const OF_PATCHES: f64 = 0.3;
-const OF_BEAMS: f64 = 0.02;
+const OF_SUMS: f64 = 0.02;
 /// Doubt of partial waves times the size parameter.
 const OF_PARTIAL_WAVES: f64 = 2.0;
 
-/// Whether beams serve.
-pub(crate) fn with_beams(settings: &FarFieldSettings) -> bool {
-    settings.size_parameter >= FIRST_OF_BEAMS && settings.tolerance <= COARSEST_OF_BEAMS
-}
-
-impl FallbackField {
-    /// For some orders, ascending.
+impl<'a> FallbackField<'a> {
+    /// For some orders, ascending, and the shares of their amplitudes.
     pub(crate) fn new(
-        tracer: &Tracer,
+        tracer: &Tracer<'a>,
         waves: Option<PartialWaves>,
-        orders: &[u32],
+        shares: &[(u32, f64)],
         settings: &FarFieldSettings,
     ) -> Self {
-        let (reflected, transmitted) = orders.split_at(orders.partition_point(|&order| order == 0));
+        let (reflected, transmitted) =
+            shares.split_at(shares.partition_point(|&(order, _)| order == 0));
         let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
         let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt };
-        let mut parts: Vec<Part> = waves.map(of_waves).into_iter().collect();
+        let mut parts: Vec<Part<'a>> = waves.map(of_waves).into_iter().collect();
         if !reflected.is_empty() {
-            let method = patches(tracer, reflected, settings);
+            let method = patches(tracer, &[0], settings);
             parts.push(Part { method, doubt: OF_REFLECTION });
         }
-        if let Some(&lowest) = transmitted.first() {
-            parts.push(if with_beams(settings) {
-                let (azimuths, x) = (settings.azimuths, settings.size_parameter);
-                let beams = GaussianBeams::new(tracer, transmitted, azimuths, x);
-                Part { method: Method::Beams(beams), doubt: OF_BEAMS * f64::from(lowest) }
-            } else {
-                Part { method: patches(tracer, transmitted, settings), doubt: OF_PATCHES }
-            });
+        if let Some(&(lowest, _)) = transmitted.first() {
+            let sum = ComplexWavefront::new(tracer, transmitted, settings.size_parameter);
+            parts.push(Part { method: Method::Sum(sum), doubt: OF_SUMS * f64::from(lowest) });
         }
         Self(parts)
     }
@@ -86,7 +71,27 @@ impl FallbackField {
         }
     }
 
-    /// The same, with `S11` of what may be wrong.
+    /// Add the waves to columns of some azimuths together, which share the rays between them.
+    pub(crate) fn add_columns(
+        &self,
+        theta: &[f64],
+        azimuths: &[f64],
+        columns: &mut [Vec<AmplitudeMatrix>],
+    ) {
+        for part in &self.0 {
+            if let Method::Sum(sum) = &part.method {
+                for (column, waves) in columns.iter_mut().zip(sum.columns(theta, azimuths)) {
+                    column.iter_mut().zip(waves).for_each(|(sum, wave)| *sum += wave);
+                }
+                continue;
+            }
+            for (column, &phi) in columns.iter_mut().zip(azimuths) {
+                part.add(theta, phi, column);
+            }
+        }
+    }
+
+    /// The waves at one azimuth, with `S11` of what may be wrong.
     pub(crate) fn doubted(&self, theta: &[f64], phi: f64) -> (Vec<AmplitudeMatrix>, Vec<f64>) {
         let mut sums = vec![AmplitudeMatrix::default(); theta.len()];
         let mut wrong = vec![0.0; theta.len()];
@@ -102,11 +107,11 @@ impl FallbackField {
     }
 }
 
-impl Part {
+impl Part<'_> {
     fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
         match &self.method {
             Method::PartialWaves(waves) => waves.add(theta, phi, sums),
-            Method::Beams(beams) => beams.add(theta, phi, sums),
+            Method::Sum(sum) => sum.add(theta, phi, sums),
             Method::Patches(sphere, interference) => {
                 for (sum, &t) in sums.iter_mut().zip(theta) {
                     *sum += interference.collect(sphere, &Direction::new(t, phi)).amplitude;
@@ -116,7 +121,7 @@ impl Part {
     }
 }
 
-fn patches(tracer: &Tracer, orders: &[u32], settings: &FarFieldSettings) -> Method {
+fn patches<'a>(tracer: &Tracer, orders: &[u32], settings: &FarFieldSettings) -> Method<'a> {
     let size_parameter = settings.size_parameter;
     let rings = (PATCH_RINGS * (0.01 / settings.tolerance).cbrt()).clamp(40.0, 400.0);
     let wavefront = Wavefront::corners(tracer.shape(), rings as usize, 2 * rings as usize, 0.0123);

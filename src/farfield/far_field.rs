@@ -1,8 +1,8 @@
 //! The far field of one wavelength, asked for columns of a table or for single directions.
 
+use super::assignment::share_of_sum;
 use super::azimuth::plane_set::PlaneSet;
 use super::column::Column;
-use super::cross_check;
 use super::direction::Direction;
 use super::fallback::FallbackField;
 use super::forward::diffraction::ForwardDiffraction;
@@ -19,17 +19,17 @@ use std::f64::consts::{PI, TAU};
 
 /// The far field of one wavelength, ready to be asked for columns or single directions.
 pub struct FarField<'a> {
-    pub(crate) source: Source,
+    pub(crate) source: Source<'a>,
     silhouette: ForwardDiffraction,
     pub(crate) size_parameter: f64,
     _shape: &'a Shape,
 }
 
 /// How amplitudes are found.
-pub(crate) enum Source {
+pub(crate) enum Source<'a> {
     Patches(CollectingSphere, Interference),
     /// Scattering planes, and something else for the orders whose planes do not correspond.
-    Planes(Box<PlaneSet>, FallbackField),
+    Planes(Box<PlaneSet>, FallbackField<'a>),
 }
 
 impl<'a> FarField<'a> {
@@ -50,12 +50,17 @@ impl<'a> FarField<'a> {
     pub fn meridians(tracer: &Tracer<'a>, settings: &FarFieldSettings) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
         let (waves, orders) = PartialWaves::of_small_particles(tracer, settings);
-        let settings = FarFieldSettings { orders: &orders, ..settings.clone() };
-        let mut planes = PlaneSet::new(tracer, &settings, &silhouette);
-        for order in cross_check::doubtful_orders(&planes, tracer, &settings) {
-            planes.give_up(order);
+        let share = |order: u32| share_of_sum(tracer, order);
+        let by_planes: Vec<u32> = orders.iter().copied().filter(|&p| share(p) < 1.0).collect();
+        let of_planes = FarFieldSettings { orders: &by_planes, ..settings.clone() };
+        let mut planes = PlaneSet::new(tracer, &of_planes, &silhouette);
+        let of_sum = |p: u32| if planes.irregular.contains(&p) { 1.0 } else { share(p) };
+        let shares: Vec<(u32, f64)> =
+            orders.iter().map(|&p| (p, of_sum(p))).filter(|(_, share)| *share > 0.0).collect();
+        for &(order, share) in &shares {
+            planes.scale(order, 1.0 - share);
         }
-        let fallback = FallbackField::new(tracer, waves, &planes.irregular, &settings);
+        let fallback = FallbackField::new(tracer, waves, &shares, settings);
         Self {
             source: Source::Planes(Box::new(planes), fallback),
             silhouette,
@@ -104,17 +109,15 @@ impl<'a> FarField<'a> {
                 .collect(),
             Source::Planes(planes, fallback) => {
                 let caustic_order = planes.caustic_order(theta);
-                let columns = planes.columns(theta, azimuths).into_iter().zip(azimuths);
-                let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
-                    fallback.add(theta, phi, &mut amplitude);
-                    Column {
-                        amplitude,
-                        incoherent: Vec::new(),
-                        rays: Vec::new(),
-                        caustic_order: caustic_order.clone(),
-                    }
+                let mut columns = planes.columns(theta, azimuths);
+                fallback.add_columns(theta, azimuths, &mut columns);
+                let column = |amplitude| Column {
+                    amplitude,
+                    incoherent: Vec::new(),
+                    rays: Vec::new(),
+                    caustic_order: caustic_order.clone(),
                 };
-                columns.map(finish).collect()
+                columns.into_iter().map(column).collect()
             }
         }
     }

@@ -71,6 +71,11 @@ impl Shape {
         self.is_sphere() || self.down.x.abs() < 1e-12
     }
 
+    /// True when the body looks the same from above and from below.
+    pub fn mirror_symmetry(&self) -> bool {
+        !matches!(self.body, Body::Raindrop(_)) || self.is_sphere()
+    }
+
     /// True when the body is a sphere, by whatever kind it is described.
     pub fn is_sphere(&self) -> bool {
         match &self.body {

@@ -2,7 +2,7 @@
 
 use super::Shape;
 use crate::math::vec3::Vec3;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Radius of the shadow's outline about the centre, by azimuth `ψ` in the plane of `(u, v)`.
 #[derive(Clone, Debug)]
@@ -58,7 +58,7 @@ impl Silhouette<'_> {
         let (sin, cos) = azimuth.sin_cos();
         let along = Vec3 { x: cos, y: sin, z: 0.0 };
         let down = self.shape.down;
-        let (mut rho, mut t) = (1.0, 0.0);
+        let (mut rho, mut t) = self.start(along);
         for _ in 0..50 {
             let x = along * rho + Vec3 { x: 0.0, y: 0.0, z: t };
             let (q, z) = (x.dot(x), down.dot(x));
@@ -87,6 +87,21 @@ impl Silhouette<'_> {
         let by_rho = s.q * 2.0 * rho + s.z * down.dot(along);
         let by_turn = s.z * down.dot(across) * rho;
         (rho, -by_turn / by_rho)
+    }
+
+    /// Where to start from: next to the outline's point, which on strongly deformed bodies has rivals.
+    fn start(&self, along: Vec3<f64>) -> (f64, f64) {
+        const GENTLE: f64 = 1.25;
+        const POINTS: u32 = 90;
+        if self.shape.bounding_radius() < GENTLE {
+            return (1.0, 0.0);
+        }
+        let point = |k: u32| {
+            let (sin, cos) = (PI * f64::from(k) / f64::from(POINTS)).sin_cos();
+            let radius = self.shape.radius_towards(along.x * sin, along.y * sin, cos);
+            (radius * sin, radius * cos)
+        };
+        (1..POINTS).map(point).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, 0.0))
     }
 
     /// Area of the shadow, in units of the square of the radius of equal volume.

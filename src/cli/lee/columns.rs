@@ -88,10 +88,7 @@ impl Raindrops {
             tolerance: if faint { FAINT_TOLERANCE } else { self.scene.tolerance },
             ..self.scene.clone()
         };
-        let mut plan = Plan::new(&scene)?;
-        // what one method gets wrong would show as a streak among hundreds of columns
-        plan.checked = false;
-        Ok(plan)
+        Ok(Plan::new(&scene)?)
     }
 
     /// One column: the bright orders one by one, then the faint ones together.

@@ -49,6 +49,8 @@ pub(crate) struct OrderPlanes {
     pub about_axis: Vec<Glory>,
     pub axis_gap: f64,
     pub azimuths: Azimuths,
+    /// Share of the order's amplitude that is left to it.
+    pub share: f64,
 }
 
 /// Where the planes stand.
@@ -135,8 +137,15 @@ impl OrderPlanes {
             }
             let spans = spans(&planes);
             let azimuths = azimuths.clone();
-            Some(Self { order, planes, layout, spans, about_axis, axis_gap, azimuths })
+            let share = 1.0;
+            Some(Self { order, planes, layout, spans, about_axis, axis_gap, azimuths, share })
         })
+    }
+
+    /// Multiply all amplitudes.
+    pub(crate) fn scale(&mut self, share: f64) {
+        self.share *= share;
+        self.planes.iter_mut().flatten().for_each(|segment| segment.scale(share));
     }
 
     /// How many segments each plane has.

@@ -7,7 +7,7 @@
 //! coalesce somewhere: cusps, umbilics) are named in [`PlaneSet::irregular`].
 
 use super::matching::another;
-use super::order_planes::{Azimuths, OrderPlanes, caustic_disorder, mirror};
+use super::order_planes::{OrderPlanes, mirror};
 use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::farfield::forward::penumbra::Penumbra;
@@ -61,40 +61,10 @@ impl PlaneSet {
         self.edge.as_ref()
     }
 
-    /// Orders that are represented, whose rays stray by more than `least` (see [`caustic_disorder`]).
-    pub(crate) fn regular_orders(&self, least: f64, tracer: &Tracer) -> Vec<u32> {
-        let orders = self.orders.iter().map(|planes| planes.order);
-        orders.filter(|&order| caustic_disorder(tracer, order) > least).collect()
-    }
-
-    /// Some azimuths at which an order can be asked for.
-    pub(crate) fn some_azimuths(&self, order: u32, count: usize) -> Vec<f64> {
-        let place = |k: usize| (k as f64 + 0.31) / count as f64;
-        match self.orders.iter().find(|planes| planes.order == order).map(|planes| &planes.azimuths)
-        {
-            Some(Azimuths::Even) => (0..count).map(|k| PI * place(k)).collect(),
-            Some(Azimuths::Listed(list)) => {
-                let mut some: Vec<f64> =
-                    (0..count).map(|k| list[(place(k) * list.len() as f64) as usize]).collect();
-                some.dedup();
-                some
-            }
-            Some(Azimuths::Any) => vec![0.0],
-            None => Vec::new(),
-        }
-    }
-
-    /// Leave an order to others.
-    pub(crate) fn give_up(&mut self, order: u32) {
-        self.orders.retain(|planes| planes.order != order);
-        self.irregular.push(order);
-        self.irregular.sort_unstable();
-    }
-
-    /// One order's amplitudes at samples θ (ascending) of an azimuth in [0, π].
-    pub(crate) fn columns_of(&self, order: u32, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
-        let orders = self.orders.iter().filter(|planes| planes.order == order);
-        self.columns_of_orders(orders, theta, &[phi]).swap_remove(0)
+    /// Leave all but a share of an order's amplitude to others.
+    pub(crate) fn scale(&mut self, order: u32, share: f64) {
+        let planes = self.orders.iter_mut().filter(|planes| planes.order == order);
+        planes.for_each(|planes| planes.scale(share));
     }
 
     /// Amplitudes at samples θ (ascending) of some azimuths in [0, π], without forward diffraction.
@@ -146,7 +116,8 @@ impl PlaneSet {
     ) -> Vec<[Vec<AmplitudeMatrix>; 2]> {
         let samples = Samples::new(theta);
         let check = |planes: &OrderPlanes| {
-            let traced = another(tracer, planes.order, azimuth, &planes.layout.finer())?;
+            let mut traced = another(tracer, planes.order, azimuth, &planes.layout.finer())?;
+            traced.iter_mut().for_each(|segment| segment.scale(planes.share));
             let mut sums = [Sums::new(&samples), Sums::new(&samples)];
             for (number, segment) in traced.iter().enumerate() {
                 let interpolated = planes.segment(number, azimuth);

@@ -36,6 +36,21 @@ pub struct Segment {
     pub knots: Vec<Knot>,
 }
 
+impl Segment {
+    /// Multiply all amplitudes.
+    pub(crate) fn scale(&mut self, share: f64) {
+        let pair = matches!(self.kind, Kind::Pair { .. });
+        let (from, count) = if pair { (PAIR_AMPLITUDE, 16) } else { (PLAIN_AMPLITUDE, 8) };
+        for knot in &mut self.knots {
+            let amplitudes = knot[from..from + count].iter_mut();
+            amplitudes.for_each(|value| *value *= share);
+            if !pair {
+                knot[SLOPE..SLOPE + 8].iter_mut().for_each(|value| *value *= share);
+            }
+        }
+    }
+}
+
 /// Slopes of all channels at all knots by angle, from parabolas through neighbours.
 pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
     let last = knots.len() - 1;

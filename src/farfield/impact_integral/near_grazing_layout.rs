@@ -30,6 +30,8 @@ pub struct NearGrazingLayout {
 /// reciprocal, and two rays serve nearly as well.
 const FIRST_ORDER: u32 = 2;
 const FIRST_ORDER_DEFORMED: u32 = 4;
+/// Order times deformation below which particles count as round here.
+const NEARLY_ROUND: f64 = 0.01;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
@@ -75,7 +77,8 @@ pub fn taper(
     const FEWEST_ZONES: f64 = 5.0;
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
-    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
+    let round = rotational || caustic_disorder < NEARLY_ROUND;
+    let first = if round { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
     let b = bow(index, order).filter(|_| order >= first)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
