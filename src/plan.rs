@@ -3,10 +3,15 @@
 //! Decided once, before anything is traced: the method, symmetries, orders, the wavefront's grid.
 //! Every decision leaves a sentence, so that `gonio plan` can print them.
 
+pub mod methods;
+
+use crate::farfield::assignment::{Assignment, Thresholds};
 use crate::medium::MediumError;
 use crate::optics::fresnel;
 use crate::scene::{Diffraction, Method, Orders, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
+use crate::trace::Tracer;
+use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
 /// Why a scene cannot be planned.
@@ -70,6 +75,8 @@ pub struct Plan {
     pub forward_diffraction: bool,
     /// Relative error asked for.
     pub tolerance: f64,
+    /// By which numbers rays of each order get their method.
+    pub thresholds: Thresholds,
     /// Grid of the patches: rings from centre to rim, and spokes.
     pub rings: usize,
     pub spokes: usize,
@@ -117,6 +124,7 @@ impl Plan {
             orders,
             forward_diffraction,
             tolerance: scene.tolerance,
+            thresholds: Thresholds::MEASURED,
             rings,
             spokes: 2 * rings,
             reasons,
@@ -144,10 +152,26 @@ impl Plan {
             orders,
             forward_diffraction,
             tolerance,
+            thresholds: Thresholds::MEASURED,
             rings,
             spokes: 2 * rings,
             reasons,
         }
+    }
+
+    /// What traces its rays at a wavelength of this size parameter.
+    pub fn tracer(&self, index: Complex64, size_parameter: f64) -> Tracer<'_> {
+        let last = self.orders.iter().copied().max().unwrap_or(0);
+        let tracer = Tracer::new(&self.shape, index, size_parameter, last);
+        if self.engine == Engine::Meridians {
+            return tracer.with_curved_interface(size_parameter);
+        }
+        tracer
+    }
+
+    /// Which method stands for which order at this size parameter, before any of them is tried.
+    pub fn assignment(&self, tracer: &Tracer, size_parameter: f64) -> Assignment {
+        Assignment::new(tracer, &self.orders, size_parameter, &self.thresholds)
     }
 
     /// The azimuths that the table holds: one where there is no dependence on azimuth.

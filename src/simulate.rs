@@ -115,7 +115,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = far_field
-        .error_estimate(&tracer(plan, index, size_parameter), budget.truncated)
+        .error_estimate(&plan.tracer(index, size_parameter), budget.truncated)
         .unwrap_or(ErrorEstimate { weighted: scene.tolerance, by_band: scene.tolerance });
     Ok(Slab {
         wavelength,
@@ -263,7 +263,7 @@ fn far_field<'a>(
     azimuths: &[f64],
     diffraction: bool,
 ) -> FarField<'a> {
-    let tracer = tracer(plan, index, size_parameter);
+    let tracer = plan.tracer(index, size_parameter);
     if plan.engine == Engine::Meridians {
         let (azimuths, _) = plan.computed_azimuths(azimuths);
         let settings = FarFieldSettings {
@@ -273,7 +273,7 @@ fn far_field<'a>(
             diffraction,
             azimuths: &azimuths,
         };
-        return FarField::meridians(&tracer, &settings);
+        return FarField::assigned(&tracer, &settings, plan.assignment(&tracer, size_parameter));
     }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
     FarField::patches(
@@ -281,16 +281,6 @@ fn far_field<'a>(
         sheets::sheets(&tracer, &wavefront, &plan.orders),
         size_parameter,
     )
-}
-
-/// What traces a plan's rays.
-fn tracer<'a>(plan: &'a Plan, index: Complex64, size_parameter: f64) -> Tracer<'a> {
-    let last = plan.orders.iter().copied().max().unwrap_or(0);
-    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
-    if plan.engine == Engine::Meridians {
-        return tracer.with_curved_interface(size_parameter);
-    }
-    tracer
 }
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.

@@ -3,10 +3,14 @@
 
 use gonio::farfield::FarField;
 use gonio::farfield::FarFieldSettings;
+use gonio::farfield::assignment::{Method, Thresholds};
 use gonio::optics::AmplitudeMatrix;
+use gonio::plan::Plan;
+use gonio::scene::{Scene, SceneFile, SceneText};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::Shape;
+use gonio::simulate;
 use gonio::trace::Tracer;
 use num_complex::Complex64;
 
@@ -258,4 +262,32 @@ fn drops_that_are_all_but_round_are_as_good_as_spheres() {
     }
     println!("{}", faults.join("\n"));
     assert!(faults.is_empty(), "{} bands:\n{}", faults.len(), faults.join("\n"));
+}
+
+const SCENE: &str = "[particle]\nshape = \"spheroid\"\nradius_um = 15\naxis_ratio = 0.95\n\
+    medium = { index = [1.333, 0.0] }\n[light]\nwavelengths_nm = [500, 600]\n\
+    [table]\ntheta_deg = { from = 0, to = 180, count = 181 }\nazimuth_deg = [30]\n\
+    [model]\nmethod = \"rays\"\norders = [0, 1, 2]\n";
+
+/// One table of thresholds: what the plan says and what is computed change together.
+#[test]
+fn plan_and_field_obey_the_same_thresholds() {
+    let text = SceneText::parse("scene.toml", SCENE.to_string()).unwrap();
+    let scene = Scene::from_text(text, &SceneFile::default()).unwrap();
+    let plan = Plan::new(&scene).unwrap();
+    let mut moved = plan.clone();
+    moved.thresholds = Thresholds { partial_waves_below: 50.0, ..Thresholds::MEASURED };
+    let methods = |plan: &Plan| -> Vec<Method> {
+        let ranges = plan.methods(&scene).unwrap();
+        assert_eq!(ranges.len(), 1);
+        let orders = &ranges[0].orders;
+        let light: f64 = orders.iter().map(|order| order.share_of_light).sum();
+        assert!((0.9..=1.0).contains(&light), "{light}");
+        orders.iter().map(|order| order.assigned.method).collect()
+    };
+    assert_eq!(methods(&plan), [Method::Planes, Method::PartialWaves, Method::PartialWaves]);
+    assert_eq!(methods(&moved), [Method::Planes; 3]);
+    let (index, x) = (Complex64::from(1.333), std::f64::consts::TAU * plan.radius / 500e-9);
+    let fields = [&plan, &moved].map(|plan| simulate::scatter(plan, index, x, &[(2.4, 0.5)])[0]);
+    assert!((fields[0] - fields[1]).s11() > 1e-8 * fields[0].s11(), "{fields:?}");
 }

@@ -11,10 +11,10 @@ const FLOORS: [(u32, &[&str]); 10] = [
     (9, &["main", "cli"]),
     (8, &["lee", "batch"]),
     (7, &["simulate"]),
-    (6, &["tabulate"]),
+    (6, &["tabulate", "plan"]),
     (5, &["farfield"]),
     // The export formats that are netCDF files use the writer of hdf5.
-    (4, &["plan", "series", "export"]),
+    (4, &["series", "export"]),
     (3, &["hdf5", "compare", "render"]),
     (2, &["scene", "phase_table", "trace"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution"]),
@@ -210,7 +210,13 @@ fn file_imports(src: &Path) -> BTreeMap<String, BTreeSet<String>> {
         // what a facade hands on, it does not use
         let own: String = code
             .split_inclusive(';')
-            .filter(|line| !line.trim_start().starts_with("pub use "))
+            .filter(|line| {
+                !line
+                    .trim_start()
+                    .trim_start_matches("#[cfg(feature = \"pictures\")]")
+                    .trim_start()
+                    .starts_with("pub use ")
+            })
             .collect();
         let paths = modules.paths_in(module, &own);
         let files = paths.iter().filter_map(|path| Some(modules.0[modules.home(path)?].0.clone()));
@@ -314,12 +320,12 @@ const FARFIELD: [&[&str]; 11] = [
     &["error_estimate.rs"],
     &["far_field.rs"],
     &["fallback.rs"],
-    &["assignment.rs"],
     &["azimuth", "complex_wavefront", "partial_waves", "reference"],
     &["forward", "patches"],
     &["impact_integral"],
     &["deflection"],
     &["branch"],
+    &["assignment.rs"],
     &["column.rs", "direction.rs", "settings.rs"],
 ];
 

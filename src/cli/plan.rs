@@ -2,6 +2,7 @@
 
 use super::scene_flags::SceneFlags;
 use clap::Args;
+use gonio::plan::methods::MethodRange;
 use gonio::plan::{Plan, Symmetry};
 use gonio::scene::human_bytes;
 use gonio::simulate;
@@ -30,10 +31,12 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
     // The time of one small slab, scaled: everything but the samples is the same for all.
     let seconds = expected_seconds(&scene, &plan, computed.len())?;
     let engine = format!("{:?}", plan.engine);
+    let methods = plan.methods(&scene)?;
     if args.json {
         let report = serde_json::json!({
             "engine": engine,
-            "orders": plan.orders,
+            "orders": methods.first().map(|range| &range.orders),
+            "ranges": methods,
             "forward_diffraction": plan.forward_diffraction,
             "rotational_symmetry": plan.symmetry == Symmetry::Rotational,
             "wavelengths": scene.wavelengths.len(),
@@ -55,6 +58,9 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
         azimuths.len(),
         computed.len()
     );
+    for range in &methods {
+        print_range(range);
+    }
     for reason in &plan.reasons {
         println!("- {reason}");
     }
@@ -64,6 +70,24 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
         human_bytes(size.working_memory())
     );
     Ok(())
+}
+
+/// One line per order and method.
+fn print_range(range: &MethodRange) {
+    println!("{:.5} to {:.5} nm:", range.from_nm, range.to_nm);
+    println!("  {:>5}  {:>5}  {:>7}  {:>8}  method, and why", "order", "part", "light", "error");
+    for order in &range.orders {
+        let part = &order.assigned;
+        println!(
+            "  {:>5}  {:>4.0}%  {:>6.2}%  {:>7.2}%  {}: {}",
+            part.order,
+            100.0 * part.share,
+            100.0 * order.share_of_light,
+            100.0 * part.expected_error,
+            part.method.words(),
+            part.reason
+        );
+    }
 }
 
 /// Time one wavelength at a tenth of the azimuths, and scale up.

@@ -4,6 +4,7 @@
 //! Order 0 stays with patches: its rays are strongest where launch points end, at the rim, which a sum
 //! over them would show as an edge that shines.
 
+use crate::farfield::assignment::{self, Assignment};
 use crate::farfield::complex_wavefront::ComplexWavefront;
 use crate::farfield::direction::Direction;
 use crate::farfield::partial_waves::PartialWaves;
@@ -34,32 +35,30 @@ enum Method<'a> {
 const FOLD_JACOBIAN: f64 = 0.5;
 /// Rings of the patch grid for tangled orders at a tolerance of 1 %.
 const PATCH_RINGS: f64 = 90.0;
-/// Doubt of patches; of sums, as many times as the number of the lowest order.
-const OF_REFLECTION: f64 = 0.07;
-const OF_SUMS: f64 = 0.02;
-/// Doubt of partial waves times the size parameter.
-const OF_PARTIAL_WAVES: f64 = 2.0;
 
 impl<'a> FallbackField<'a> {
-    /// For some orders, ascending, and the shares of their amplitudes.
+    /// What an assignment leaves beside scattering planes; `waves` are its partial waves.
     pub(crate) fn new(
         tracer: &Tracer<'a>,
         waves: Option<PartialWaves>,
-        shares: &[(u32, f64)],
+        assignment: &Assignment,
         settings: &FarFieldSettings,
     ) -> Self {
-        let (reflected, transmitted) =
-            shares.split_at(shares.partition_point(|&(order, _)| order == 0));
-        let doubt = OF_PARTIAL_WAVES / settings.size_parameter;
-        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt };
+        let part = |method: Method<'a>, of: assignment::Method| Part {
+            method,
+            doubt: assignment.error_of(of),
+        };
+        let of_waves = |waves| part(Method::PartialWaves(waves), assignment::Method::PartialWaves);
         let mut parts: Vec<Part<'a>> = waves.map(of_waves).into_iter().collect();
-        if !reflected.is_empty() {
-            let method = patches(tracer, &[0], settings);
-            parts.push(Part { method, doubt: OF_REFLECTION });
+        let by_patches = assignment.orders_of(assignment::Method::Patches);
+        if !by_patches.is_empty() {
+            let method = patches(tracer, &by_patches, settings);
+            parts.push(part(method, assignment::Method::Patches));
         }
-        if let Some(&(lowest, _)) = transmitted.first() {
-            let sum = ComplexWavefront::new(tracer, transmitted, settings.size_parameter);
-            parts.push(Part { method: Method::Sum(sum), doubt: OF_SUMS * f64::from(lowest) });
+        let by_sum = assignment.shares_of(assignment::Method::ComplexWavefront);
+        if !by_sum.is_empty() {
+            let sum = ComplexWavefront::new(tracer, &by_sum, settings.size_parameter);
+            parts.push(part(Method::Sum(sum), assignment::Method::ComplexWavefront));
         }
         Self(parts)
     }

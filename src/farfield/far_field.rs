@@ -1,6 +1,6 @@
 //! The far field of one wavelength, asked for columns of a table or for single directions.
 
-use super::assignment::share_of_sum;
+use super::assignment::{Assignment, Method, Thresholds, Trial};
 use super::azimuth::plane_set::PlaneSet;
 use super::column::Column;
 use super::direction::Direction;
@@ -20,6 +20,7 @@ use std::f64::consts::{PI, TAU};
 /// The far field of one wavelength, ready to be asked for columns or single directions.
 pub struct FarField<'a> {
     pub(crate) source: Source<'a>,
+    assignment: Option<Assignment>,
     silhouette: ForwardDiffraction,
     pub(crate) size_parameter: f64,
     _shape: &'a Shape,
@@ -40,33 +41,56 @@ impl<'a> FarField<'a> {
         let interference = Interference { size_parameter, interpolation, largest_jacobian };
         Self {
             source: Source::Patches(CollectingSphere::new(sheets), interference),
+            assignment: None,
             silhouette: ForwardDiffraction::new(shape),
             size_parameter,
             _shape: shape,
         }
     }
 
-    /// Scattering planes with uniform Airy functions at their folds.
+    /// Every order by the method that its measured thresholds say.
     pub fn meridians(tracer: &Tracer<'a>, settings: &FarFieldSettings) -> Self {
+        let (orders, x) = (settings.orders, settings.size_parameter);
+        Self::assigned(tracer, settings, Assignment::new(tracer, orders, x, &Thresholds::MEASURED))
+    }
+
+    /// Every order by the method that it is assigned to, or, where its rays cannot be followed, by the
+    /// next.
+    pub fn assigned(
+        tracer: &Tracer<'a>,
+        settings: &FarFieldSettings,
+        assignment: Assignment,
+    ) -> Self {
         let silhouette = ForwardDiffraction::new(tracer.shape());
-        let (waves, orders) = PartialWaves::of_small_particles(tracer, settings);
-        let share = |order: u32| share_of_sum(tracer, order);
-        let by_planes: Vec<u32> = orders.iter().copied().filter(|&p| share(p) < 1.0).collect();
+        let small = assignment.orders_of(Method::PartialWaves);
+        let (waves, lost) = match small.is_empty() {
+            true => (None, Vec::new()),
+            false => {
+                let (waves, lost) = PartialWaves::new(tracer, &small, settings.size_parameter);
+                (Some(waves), lost)
+            }
+        };
+        let assignment = assignment.after(Trial::RadialLines(&lost));
+        let by_planes = assignment.orders_of(Method::Planes);
         let of_planes = FarFieldSettings { orders: &by_planes, ..settings.clone() };
         let mut planes = PlaneSet::new(tracer, &of_planes, &silhouette);
-        let of_sum = |p: u32| if planes.irregular.contains(&p) { 1.0 } else { share(p) };
-        let shares: Vec<(u32, f64)> =
-            orders.iter().map(|&p| (p, of_sum(p))).filter(|(_, share)| *share > 0.0).collect();
-        for &(order, share) in &shares {
-            planes.scale(order, 1.0 - share);
+        let assignment = assignment.after(Trial::Planes(&planes.irregular));
+        for (order, share) in assignment.shares_of(Method::Planes) {
+            planes.scale(order, share);
         }
-        let fallback = FallbackField::new(tracer, waves, &shares, settings);
+        let fallback = FallbackField::new(tracer, waves, &assignment, settings);
         Self {
             source: Source::Planes(Box::new(planes), fallback),
+            assignment: Some(assignment),
             silhouette,
             size_parameter: settings.size_parameter,
             _shape: tracer.shape(),
         }
+    }
+
+    /// Which method stands for which order, as it turned out. `None` for patches alone.
+    pub fn assignment(&self) -> Option<&Assignment> {
+        self.assignment.as_ref()
     }
 
     /// Orders that the method could not represent.

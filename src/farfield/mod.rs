@@ -9,7 +9,7 @@
 //! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`reference`]
 //! is a brute-force sum that needs no asymptotics. [`FarField`] is what the rest of the house uses.
 
-mod assignment;
+pub mod assignment;
 pub mod azimuth;
 pub mod branch;
 mod column;

@@ -3,6 +3,7 @@
 use super::azimuthal_smoothness::azimuthal_smoothness;
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, trace};
+use crate::farfield::assignment::caustic_disorder;
 use crate::farfield::branch::accumulate::Side;
 use crate::farfield::branch::knots::{
     CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment,
@@ -202,14 +203,6 @@ impl OrderPlanes {
         blend(&mut knots, &sources, &weights);
         Segment { kind: template.kind, knots }
     }
-}
-
-/// How far rays of an order stray from those of a sphere: order times deformation of the outline.
-pub(crate) fn caustic_disorder(tracer: &Tracer, order: u32) -> f64 {
-    let silhouette = tracer.shape().silhouette();
-    let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
-    let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
-    f64::from(order) * (high - low)
 }
 
 /// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order

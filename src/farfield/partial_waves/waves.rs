@@ -14,7 +14,6 @@
 //! in the WKB form, with impacts beyond the rim where waves tunnel ([`crate::farfield::impact_integral::near_grazing`]).
 
 use super::radial_line::{RadialLine, Ring, central_ray};
-use crate::farfield::settings::FarFieldSettings;
 use crate::math::spherical_harmonics::legendre;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
@@ -23,8 +22,6 @@ use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Size parameter from which on other methods are quicker, and as good.
-const FIRST_TOO_LARGE: f64 = 600.0;
 /// Azimuths of launch points to look at how far planes are tilted.
 const PROBES: usize = 16;
 /// Samples of the scattering angle per period of the highest partial wave.
@@ -50,22 +47,6 @@ pub struct PartialWaves {
 type Potentials = Vec<[Complex64; 4]>;
 
 impl PartialWaves {
-    /// The transmitted orders of a small particle, and the orders that are left to other methods.
-    pub(crate) fn of_small_particles(
-        tracer: &Tracer,
-        settings: &FarFieldSettings,
-    ) -> (Option<Self>, Vec<u32>) {
-        let (x, all) = (settings.size_parameter, settings.orders);
-        let first = all.partition_point(|&order| order == 0);
-        let symmetric = tracer.shape().rotational_symmetry();
-        if x >= FIRST_TOO_LARGE || first == all.len() || symmetric {
-            return (None, all.to_vec());
-        }
-        let (waves, missed) = Self::new(tracer, &all[first..], x);
-        let left = all[..first].iter().copied().chain(missed).collect();
-        (Some(waves), left)
-    }
-
     /// Of some orders; those whose rays cannot be followed are returned beside.
     pub fn new(tracer: &Tracer, orders: &[u32], x: f64) -> (Self, Vec<u32>) {
         let mut sums: Vec<Potentials> = Vec::new();
