@@ -1,14 +1,18 @@
 //! `PhaseTable`: the narrow waist. Everything that computes scattering produces one, wavelength
 //! slab by wavelength slab; everything else (HDF5, pictures, reports, exports) reads nothing but it.
 
+mod averaging;
+mod bodies;
 mod validate;
 
+pub use averaging::{Averaging, DiscOfSun};
+pub use bodies::Bodies;
 pub use validate::InvalidTable;
 
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
 use serde::Serialize;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Coordinates of a table. θ ascending in [0, π]; φ ascending in [0, 2π] (both ends may be there).
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +88,12 @@ pub struct TableHeader {
     pub radius: f64,
     /// Sun's elevation above the horizon, radians.
     pub sun_elevation: f64,
+    /// Volume, shadow and density of the particles; `None` where the table does not tell.
+    pub bodies: Option<Bodies>,
+    /// What the values are means over.
+    pub averaging: Averaging,
+    /// Relative error that was asked for; NaN where none was.
+    pub tolerance: f64,
     /// The resolved scene as TOML.
     pub scene_toml: String,
     /// The command line that made the table (empty when made by the library).
@@ -105,6 +115,11 @@ pub struct Slab {
     /// Cross-sections, m².
     pub scattering_cross_section: f64,
     pub extinction_cross_section: f64,
+    /// What is absorbed, counted apart from the two others, m².
+    pub absorption_cross_section: f64,
+    /// Extinction by the optical theorem, `2π/k² Re(S1 + S2)` of the amplitudes straight ahead, m²;
+    /// absent where the table has no forward diffraction.
+    pub forward_extinction: Option<f64>,
     /// Mean cosine of the scattering angle.
     pub asymmetry: f64,
     /// Absent for the exact series.
@@ -117,6 +132,25 @@ pub struct Slab {
     pub error_estimate: f64,
     /// The same, root mean square over bands of a few degrees, each relative to its own intensity.
     pub error_by_band: f64,
+    /// The error that was asked for is met, by the method's own estimate; `None` where that has none.
+    pub tolerance_met: Option<bool>,
+    /// The same by scattering angle: within 2° of each of [`error_theta`], over azimuth. NaN where not known.
+    pub error_by_direction: [f64; ERROR_BANDS],
+    /// Share of the scattered power in orders that a list left out; 0 where all that matter are in.
+    pub left_out: f64,
+}
+
+/// Bands of scattering angle for which an error is stated.
+pub const ERROR_BANDS: usize = 46;
+
+/// Middle of a band of scattering angle for which an error is stated, radians: 0°, 4°, … 180°.
+///
+/// ```
+/// use gonio::phase_table::{ERROR_BANDS, error_theta};
+/// assert_eq!(error_theta(ERROR_BANDS - 1), std::f64::consts::PI);
+/// ```
+pub fn error_theta(band: usize) -> f64 {
+    PI * band as f64 / (ERROR_BANDS - 1) as f64
 }
 
 /// A whole table in memory.

@@ -4,14 +4,17 @@
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
-use crate::farfield::FarFieldSettings;
 use crate::farfield::patches::{gaussian_filter, sheets};
-use crate::farfield::{ErrorEstimate, FarField};
+use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
+use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
-use crate::phase_table::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
+use crate::phase_table::{
+    Averaging, Axes, Bodies, DiscOfSun, EnergyBudget, ForwardPeak, InvalidTable, PhaseTable, Slab,
+    TableHeader,
+};
 use crate::plan::{Engine, Plan, PlanError, Symmetry};
-use crate::scene::{Particle, Scene};
+use crate::scene::{Diffraction, Particle, Scene, SunDisc};
 use crate::series::SeriesError;
 use crate::series::debye::Term;
 use crate::series::mean::MeanError;
@@ -20,7 +23,7 @@ use crate::size_distribution::SizeDistribution;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// What can go wrong on the main path.
 #[derive(Debug, thiserror::Error)]
@@ -37,6 +40,8 @@ pub enum SimulateError {
         "energy does not add up at {wavelength_nm} nm: {residual:e} of the light is unaccounted for"
     )]
     Energy { wavelength_nm: f64, residual: f64 },
+    #[error("the table would be wrong: {0}")]
+    Wrong(#[from] InvalidTable),
 }
 
 /// Rays per side of the grid on which the energy budget is added up.
@@ -45,7 +50,8 @@ const ENERGY_GRID: usize = 100;
 const ENERGY_TOLERANCE: f64 = 1e-6;
 
 /// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
-/// with its index while the next one is being computed.
+/// with its index while the next one is being computed. No slab is handed on that
+/// [`Slab::validate`] refuses.
 ///
 /// # Errors
 /// The plan's, the medium's, or whatever `sink` returns; nothing is computed after an error.
@@ -54,11 +60,14 @@ pub fn simulate<E: From<SimulateError>>(
     mut sink: impl FnMut(usize, Slab) -> Result<(), E>,
 ) -> Result<(), E> {
     let plan = Plan::new(scene).map_err(SimulateError::from)?;
+    let header = header(scene, String::new())?;
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::sync_channel(1);
+        let header = &header;
         scope.spawn(move || {
             for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-                let slab = slab(scene, &plan, wavelength);
+                let slab = slab(scene, &plan, wavelength)
+                    .and_then(|slab| Ok(slab.validate(header, 0.0).map(|()| slab)?));
                 let failed = slab.is_err();
                 if sender.send((i, slab)).is_err() || failed {
                     return;
@@ -99,24 +108,36 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let sections = CrossSections::new(plan, &far_field, index, budget.absorbed);
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
+    let treatment = Treatment {
+        interference: scene.interference,
+        filter: (scene.diffraction == Diffraction::Gaussian)
+            .then(|| gaussian_filter::standard_deviation(plan.radius)),
+    };
+    let left_out = left_out(plan, &budget) * far_field.silhouette().area() / sections.scattering();
     let tabulator = Tabulator {
         theta: &scene.theta,
         size_parameter,
         quantity: scene.quantity,
         forward_peak: scene.forward_peak,
-        interference: scene.interference,
-        filter: (scene.diffraction == crate::scene::Diffraction::Gaussian)
-            .then(|| gaussian_filter::standard_deviation(plan.radius)),
+        interference: treatment.interference,
+        filter: treatment.filter,
         diffraction: plan.forward_diffraction.then(|| far_field.forward_wave()),
         scattering: sections.scattering(),
         shadow_area: far_field.silhouette().area(),
+        left_out,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
-    let error_estimate = far_field
-        .error_estimate(&plan.tracer(index, size_parameter), budget.truncated)
-        .unwrap_or(ErrorEstimate { weighted: scene.tolerance, by_band: scene.tolerance });
+    let error_estimate = if plan.checked {
+        let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
+        let tracer = plan.tracer(index, size_parameter);
+        far_field.error_estimate(&tracer, &squares, treatment.interference)
+    } else {
+        ErrorEstimate::UNKNOWN
+    };
+    let known = !error_estimate.weighted.is_nan();
+    let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
         wavelength,
         index,
@@ -124,13 +145,88 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         caustic_order,
         scattering_cross_section: sections.scattering() * plan.radius * plan.radius,
         extinction_cross_section: sections.extinction * plan.radius * plan.radius,
+        absorption_cross_section: sections.absorption * plan.radius * plan.radius,
+        // Patches have no sound wave straight ahead.
+        forward_extinction: (in_table && far_field.straight_forward().is_some())
+            .then(|| straight_ahead(&far_field, computed[0]) * plan.radius * plan.radius),
         asymmetry,
         energy: Some(budget),
         sum_before_peak,
         peak_share,
         error_estimate: error_estimate.weighted,
         error_by_band: error_estimate.by_band,
+        error_by_direction: error_estimate.by_direction,
+        left_out,
+        tolerance_met,
     })
+}
+
+/// Extinction by the optical theorem, in units of the squared radius, from what the columns of a table
+/// have at θ = 0 of one azimuth. `S1 + S2` there is a trace, the same in the plane of every azimuth.
+fn straight_ahead(far_field: &FarField, azimuth: f64) -> f64 {
+    let rays = far_field.columns(&[0.0], &[azimuth], false).swap_remove(0).amplitude[0];
+    let wave = far_field.forward_wave();
+    let whole = rays + wave.peak(&Direction::new(0.0, azimuth));
+    TAU * (whole.s1 + whole.s2).re / wave.size_parameter.powi(2)
+}
+
+/// What a table makes of the amplitudes of patches.
+#[derive(Clone, Copy, Debug)]
+struct Treatment {
+    interference: bool,
+    /// Standard deviation of the Gaussian filter, radians.
+    filter: Option<f64>,
+}
+
+/// Share of the light on the shadow that is in orders which a list leaves out. Where all that matter are
+/// summed the rest is below the tolerance, and counts as forward light.
+fn left_out(plan: &Plan, budget: &EnergyBudget) -> f64 {
+    if plan.complete {
+        return 0.0;
+    }
+    let other = |(order, share): (usize, &f64)| {
+        if plan.orders.contains(&(order as u32)) { 0.0 } else { *share }
+    };
+    let others: f64 = budget.left_by_order.iter().enumerate().map(other).sum();
+    others + budget.truncated + budget.totally_reflected
+}
+
+/// The measurement on the sphere of equal volume that a plan's method is judged by.
+fn sphere_check(
+    plan: &Plan,
+    index: Complex64,
+    size_parameter: f64,
+    treatment: Treatment,
+) -> SphereCheck<'_> {
+    let Treatment { interference, filter } = treatment;
+    SphereCheck {
+        index,
+        size_parameter,
+        orders: &plan.orders,
+        complete: plan.complete,
+        diffraction: plan.forward_diffraction,
+        tolerance: plan.tolerance,
+        method: match plan.engine {
+            Engine::Patches => CheckedMethod::Patches { rings: plan.rings, interference, filter },
+            _ => CheckedMethod::Meridians { deformed: !plan.shape.rotational_symmetry() },
+        },
+    }
+}
+
+/// Relative error of the intensity from 10° to 170°, weighted by intensity, that rays have on the sphere
+/// of equal volume.
+///
+/// # Errors
+/// What the exact series refuse.
+pub fn worth_of_rays(
+    plan: &Plan,
+    index: Complex64,
+    size_parameter: f64,
+) -> Result<ErrorEstimate, SeriesError> {
+    let treatment = Treatment { interference: true, filter: None };
+    let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
+    let far_field = far_field(plan, index, size_parameter, &[0.0], plan.forward_diffraction);
+    Ok(far_field.error_estimate(&plan.tracer(index, size_parameter), &squares, true))
 }
 
 /// Cross sections in units of the squared radius.
@@ -142,13 +238,14 @@ pub struct CrossSections {
 
 impl CrossSections {
     /// From the share of light on the shadow that rays lose inside. Extinction is what the wave
-    /// straight ahead lacks (optical theorem) where diffraction and reflection are joined; else the
-    /// shadow, and once more with diffraction.
+    /// straight ahead lacks (optical theorem) where diffraction is part of it, twice the shadow for
+    /// patches, which have no sound wave there; without diffraction the shadow alone.
     fn new(plan: &Plan, far_field: &FarField, index: Complex64, absorbed: f64) -> Self {
         let area = far_field.silhouette().area();
         let wave = far_field.forward_wave();
         let beyond = wave.edge.filter(|_| index.im > 0.0).map_or(0.0, |e| e.absorption(index));
-        let extinction = match far_field.straight_forward() {
+        let ahead = far_field.straight_forward().filter(|_| plan.forward_diffraction);
+        let extinction = match ahead {
             Some(s) => TAU * (s.s1 + s.s2).re / wave.size_parameter.powi(2),
             None if plan.forward_diffraction => 2.0 * area,
             None => area,
@@ -172,14 +269,20 @@ pub fn scatter(
 }
 
 /// The same with cross sections, for the share of light on the shadow that rays lose inside.
+///
+/// With a `filter` (radians) amplitudes of patches have the intensities that it leaves near bows.
 pub fn scatter_with_sections(
     plan: &Plan,
     index: Complex64,
     size_parameter: f64,
     directions: &[(f64, f64)],
     absorbed: f64,
+    filter: Option<f64>,
 ) -> (Vec<AmplitudeMatrix>, CrossSections) {
-    let (amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
+    let (mut amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
+    if let Some(sigma) = filter {
+        amplitudes = far_field.scatter_filtered(directions, plan.forward_diffraction, sigma);
+    }
     (amplitudes, CrossSections::new(plan, &far_field, index, absorbed))
 }
 
@@ -224,9 +327,52 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
         .into(),
         radius: plan.radius,
         sun_elevation: scene.sun_elevation,
+        bodies: Some(bodies(scene, &plan)),
+        averaging: averaging(scene, &plan),
+        tolerance: scene.tolerance,
         scene_toml: scene.toml.clone(),
         command_line,
     })
+}
+
+/// The particles of a scene as bodies.
+fn bodies(scene: &Scene, plan: &Plan) -> Bodies {
+    let bodies = match &scene.size_distribution {
+        Some(sizes) => Bodies {
+            effective_radius: sizes.effective_radius(),
+            effective_variance: sizes.effective_variance(),
+            mean_volume: 4.0 / 3.0 * PI * sizes.mean_power(3),
+            mean_area: PI * sizes.mean_power(2),
+            ..Bodies::sphere(plan.radius)
+        },
+        None => Bodies::of_one_size(
+            4.0 / 3.0 * PI * plan.radius.powi(3),
+            plan.shape.silhouette().area() * plan.radius.powi(2),
+        ),
+    };
+    match &scene.density {
+        Some(density) => bodies.with_density(Some(density.kg_m3), &density.source),
+        None => bodies,
+    }
+}
+
+/// What a scene averages over.
+fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
+    let rays = matches!(plan.engine, Engine::Meridians | Engine::Patches);
+    let filtered = rays && scene.diffraction == crate::scene::Diffraction::Gaussian;
+    Averaging {
+        sun_disc: match scene.sun_disc {
+            SunDisc::None => DiscOfSun::None,
+            SunDisc::Uniform => DiscOfSun::Uniform,
+            SunDisc::LimbDarkened => DiscOfSun::LimbDarkened,
+        },
+        sizes: scene
+            .size_distribution
+            .as_ref()
+            .is_some_and(|sizes| !matches!(sizes, SizeDistribution::Delta { .. })),
+        bandwidth: scene.bandwidth,
+        filter: if filtered { gaussian_filter::standard_deviation(plan.radius) } else { 0.0 },
+    }
 }
 
 /// Trace a coarse wavefront for the budget of energy by fate.
@@ -303,6 +449,7 @@ fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Mean
         bandwidth: scene.bandwidth,
         sun_disc: scene.sun_disc,
         tolerance: scene.tolerance,
+        allow_unmet: scene.allow_unmet_tolerance,
     };
     sphere_slab(&job, &scene.theta, scene.quantity, scene.forward_peak)
 }

@@ -106,6 +106,23 @@ impl SizeDistribution {
         }
     }
 
+    /// Variance of the radius about the effective radius, weighted with the shadow, in units of the
+    /// effective radius squared.
+    pub fn effective_variance(&self) -> f64 {
+        match *self {
+            Self::Delta { .. } => 0.0,
+            _ => self.moment(4) * self.moment(2) / self.moment(3).powi(2) - 1.0,
+        }
+    }
+
+    /// Mean of a power of the radius over the number of particles, m to that power.
+    pub fn mean_power(&self, power: i32) -> f64 {
+        match *self {
+            Self::Delta { radius } => radius.powi(power),
+            _ => self.moment(power) / self.number(),
+        }
+    }
+
     /// Radii beyond which nothing counts, even weighted with r⁴.
     fn span(&self) -> (f64, f64) {
         match *self {
@@ -176,6 +193,24 @@ mod tests {
         let normal = SizeDistribution::Normal { mean: 1e-5, deviation: 1e-6 };
         let expected = (1e-15 + 3e-5 * 1e-12) / (1e-10 + 1e-12);
         assert_relative_eq!(normal.effective_radius(), expected, max_relative = 1e-6);
+    }
+
+    /// Closed forms: gamma ⟨r³⟩ = a³ (1 - v)(1 - 2v), ⟨r²⟩ = a² (1 - v)(1 - 2v), variance v; log-normal
+    /// ⟨r³⟩ = r_eff³ exp(-3 s²), variance exp(s²) - 1.
+    #[test]
+    fn volumes_and_variances_in_closed_form() {
+        let (a, v) = (1e-5, 0.1);
+        let gamma = SizeDistribution::Gamma { effective_radius: a, effective_variance: v };
+        let share = (1.0 - v) * (1.0 - 2.0 * v);
+        assert_relative_eq!(gamma.mean_power(3), a.powi(3) * share, max_relative = 1e-6);
+        assert_relative_eq!(gamma.mean_power(2), a.powi(2) * share, max_relative = 1e-6);
+        assert_relative_eq!(gamma.effective_variance(), v, max_relative = 1e-6);
+        let log = SizeDistribution::LogNormal { median: 2e-6, spread: 0.4 };
+        let volume = (log.effective_radius()).powi(3) * f64::exp(-3.0 * 0.16);
+        assert_relative_eq!(log.mean_power(3), volume, max_relative = 1e-6);
+        assert_relative_eq!(log.effective_variance(), 0.16f64.exp_m1(), max_relative = 1e-6);
+        let one = SizeDistribution::Delta { radius: a };
+        assert_eq!((one.mean_power(3), one.effective_variance()), (a.powi(3), 0.0));
     }
 
     /// Closed forms against sums.

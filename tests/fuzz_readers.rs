@@ -38,6 +38,13 @@ const TABULATED: &str = "COMMENTS: \"x\"\nDATA:\n  - type: tabulated nk\n    dat
     \x20     0.4 1.5 0.1\n      0.5 1.4 0.2\n      0.6 1.35 0.0\n";
 const CSV: &str = "# source: somebody\nwavelength_nm,n,k\n400,1.33,1e-9\n500,1.32,2e-9\n\
     600,1.31,3e-9\n700,1.30,4e-9\n";
+/// The downloads of refractiveindex.info, decimal commas, quotes, permittivities, UTF-16, old Macs.
+const SITE: &str = "wl,n\n0.4,1.50\n0.5,1.49\n0.6,1.48\n\nwl,k\n0.4,0.001\n0.5,0.002\n";
+const COMMAS: &str = "\"Wavelength, um\";n;k\n0,40;1,50;0,001\n0,50;1,49;0,002 # c\n0,60;1,48;0\n";
+const EPSILON: &str = "! a\renergy_eV\teps1\teps2\r3.0D0\t2.25\t0.003\r2.0D0\t2.22\t0.006\r";
+const AGF: &str = "CC a maker\nNM F2 2 620364.360 1.62004 36.37 0 1\n\
+    CD 1.34533359 0.00997743871 0.209073176 0.0470450767 0.937357162 111.886764 0 0\n\
+    LD 0.32 2.5\nIT 0.32 0.0 25\nIT 0.4 0.985 25\nIT 0.7 0.998 25\n";
 const WORDS: [&[u8]; 30] = [
     b"nan",
     b"inf",
@@ -253,9 +260,9 @@ fn plans() {
     });
 }
 
-fn optical_data(what: &'static str, name: &str, seeds: &[&str]) {
+fn optical_data(what: &'static str, name: &str, seeds: &[Vec<u8>]) {
     let spec = MediumSpec::parse(&format!("{{ file = \"{name}\", extrapolate = true }}")).unwrap();
-    fuzz(what, 10_000, name, &texts(seeds), |path, _| {
+    fuzz(what, 10_000, name, seeds, |path, _| {
         let medium = spec.resolve(path.parent().unwrap());
         medium.is_ok_and(|medium| medium.index(0.5e-6).is_ok())
     });
@@ -263,12 +270,19 @@ fn optical_data(what: &'static str, name: &str, seeds: &[&str]) {
 
 #[test]
 fn refractive_index_info() {
-    optical_data("yaml", "medium.yml", &[GLASS, TABULATED]);
+    optical_data("yaml", "medium.yml", &texts(&[GLASS, TABULATED]));
 }
 
 #[test]
 fn optical_csv() {
-    optical_data("csv", "medium.csv", &[CSV]);
+    let mut seeds = texts(&[CSV, SITE, COMMAS, EPSILON]);
+    seeds.push(CSV.encode_utf16().flat_map(u16::to_le_bytes).collect());
+    optical_data("csv", "medium.csv", &seeds);
+}
+
+#[test]
+fn zemax_catalogue() {
+    optical_data("agf", "medium.agf", &texts(&[AGF]));
 }
 
 /// Two tables over an axis of words, without dates.

@@ -120,7 +120,7 @@ fn media() {
             "deeper than 32 levels",
         ),
         ("bomb.yml", "a: &a [x, x]\nb: &b [*a, *a]\nDATA: *b\n".into(), "aliases"),
-        ("nan.yml", table("      0.4 nan 0.1\n      0.5 1.4 0.2\n"), "line 4: \"nan\""),
+        ("nan.yml", table("      0.4 nan 0.1\n      0.6 1.4 0.2\n"), "line 4: \"nan\""),
         ("huge.yml", table("      0.4 1e300 0\n      0.6 1e308 0\n"), "1e-4 to 1e4"),
         ("binary.yml", "\u{0}\u{1}\u{7f}".into(), "binary.yml"),
         ("huge.csv", "wavelength_nm,n,k\n400,1e300,0\n600,1e308,0\n".into(), "1e-4 to 1e4"),

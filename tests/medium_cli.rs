@@ -94,8 +94,66 @@ fn kramers_kronig_of_a_file() {
             assert!(error < bound, "{method}: {error:e}");
         }
     }
+    // What the ends are worth is said: k ends a third down the band's wing here.
+    let forward = json(&["--kramers-kronig", file, "--background", "1.33"]);
+    assert!(forward["range_uncertainty"].as_array().unwrap().iter().all(|v| v.as_f64().is_some()));
     refused(&["--kramers-kronig", file], "--background");
     refused(&["--kramers-kronig", file, "--background", "1.33", "--inverse"], "no column n");
+}
+
+/// k from a short range of n: refused where it comes out below zero, with what the range is worth,
+/// which holds the true error.
+#[test]
+fn a_short_range_of_n_says_what_it_is_worth() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("n.csv");
+    let pair = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/medium/kk_lorentz_pair.csv");
+    let text = std::fs::read_to_string(pair).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(2)
+        .map(|line| line.split(',').map(|v| v.parse().unwrap()).collect())
+        .collect();
+    let written: String =
+        rows.iter().map(|r| format!("{},{}\n", r[0], 1.33 + r[1] - r[3])).collect();
+    std::fs::write(&path, format!("wavelength_um,n\n{written}")).unwrap();
+    let file = path.to_str().unwrap();
+    let arguments = ["--kramers-kronig", file, "--background", "1.33", "--inverse"];
+    refused(&arguments, "k is below 0 in");
+    refused(&arguments, "--allow-negative-k");
+    let value = json(&[&arguments[..], &["--allow-negative-k"]].concat());
+    let column = |name: &str| -> Vec<f64> {
+        value[name].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+    };
+    let (k, worth) = (column("k"), column("range_uncertainty"));
+    assert!(k.iter().any(|k| *k < 0.0));
+    let inner = 1..rows.len() - 1;
+    for i in inner {
+        let error = (k[i] - rows[i][2]).abs();
+        assert!(error < 2.0 * worth[i] + 1e-6, "row {i}: {error:e} of {:e}", worth[i]);
+    }
+    let text = gonio().args(arguments).arg("--allow-negative-k").output().unwrap().stdout;
+    assert!(String::from_utf8(text).unwrap().contains("what lies beyond may change k by"));
+}
+
+/// Files of k alone are shown, and make no medium; notes stand on stderr, once.
+#[test]
+fn notes_and_files_without_n() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("k.yml");
+    let text = "DATA:\n  - type: tabulated k\n    data: |\n      0.5 1e-3\n      0.6 2e-3\n";
+    std::fs::write(&path, text).unwrap();
+    let file = path.to_str().unwrap();
+    let value = json(&[file, "--wavelength-nm", "600"]);
+    assert!(value["n"].is_null() && value["k"][0] == 2e-3, "{value}");
+    refused(&[file, "--wavelength-nm", "700"], "outside the data of k (500 to 600 nm)");
+    refused(&["water", "--compare", file], "the file holds no n (only k)");
+    let path = folder.path().join("nk.csv");
+    std::fs::write(&path, "wavelength_nm,n,k\n400,1.5,0.1\n500,1.5,-1e-9\n").unwrap();
+    let file = path.to_str().unwrap();
+    let output = gonio().args([file, "--compare", file]).output().unwrap();
+    let notes = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(notes.matches("note: nk: 1 row with k below 0").count(), 1, "{notes}");
 }
 
 #[test]

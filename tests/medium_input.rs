@@ -16,7 +16,10 @@ fn resolve(text: &str, folder: &Path) -> Result<Medium, MediumError> {
 
 fn message(text: &str, folder: &Path) -> String {
     match resolve(text, folder) {
-        Ok(medium) => medium.index(550e-9).unwrap_err().to_string(),
+        Ok(medium) => match medium.index(550e-9) {
+            Ok(index) => format!("{index}, notes: {}", medium.notes().join("; ")),
+            Err(error) => error.to_string(),
+        },
         Err(error) => error.to_string(),
     }
 }
@@ -58,6 +61,7 @@ fn specs_go_through_toml_unchanged() {
         "{ index = [1.333, 0.001] }",
         "{ index = 1.5 }",
         "{ file = \"a.yml\", extrapolate = true }",
+        "{ file = \"a.agf\", glass = \"F2\" }",
         "{ sellmeier = { b = [1.0, 0.2], c_um2 = [0.006, 0.02] } }",
         "{ cauchy = [1.5, 0.004, 1e-4] }",
         "{ abbe = [1.5168, 64.17], line = \"e\" }",
@@ -153,16 +157,16 @@ fn wrong_files_are_named_with_their_line() {
     let change = |from: &str, to: &str| GLASS.replace(from, to);
     let deep = |levels: usize| format!("DATA: {}{}\n", "[".repeat(levels), "]".repeat(levels));
     let cases = [
-        (table("        0.4 1.5 0\n        0.4 1.4 0\n"), "line 5: wavelength 0.4 µm again"),
-        (table("        0.4 1.5 0\n        0.3 1.4 0\n"), "line 5: wavelength 0.3 µm after 0.4 µm"),
-        (table("        0.4 1.5 0\n        0.5 1.4 -1\n"), "line 5: k = -1 must be 0 or more"),
+        (table("        0.4 1.5 0\n        0.4 1.4 0\n"), "of file (one row, at 400 nm)"),
+        (table("        0.4 1.5 0\n        0.3 1.4 0\n"), "of file (300 to 400 nm)"),
+        (table("        0.4 1.5 0\n        0.6 1.4 -1\n"), "line 5: k = -1 must be 0 or more"),
         (table("        0.4 1.5 0\n        0.5 -1.4 0\n"), "line 5: n = -1.4 must be positive"),
-        (table("        0.4 1.5 0\n        0.5 1.4\n"), "line 5: 2 numbers, expected 3"),
+        (table("        0.4 1.5 0\n        0.6 1.4\n"), "line 5: 2 numbers, expected 3"),
         (table("        0.4 1.5 zero\n"), "line 4: \"zero\" is not a finite number"),
         (table("        400 1.5 0\n        700 1.4 0\n"), "they look like nm"),
-        (change("0.3 2.5", "300 2500"), "line 8: range 300 to 2500 µm"),
+        (change("0.3 2.5", "300 2500"), "declared in µm (they look like nm)"),
         (change("0.3 2.5", "2.5 0.3"), "line 8: range \"2.5 0.3\""),
-        (change("0.0200179144", "0.25"), "line 9: pole of the formula = 0.5 µm"),
+        (change("0.0200179144", "0.3026"), "farther from the pole of the formula at 550.09"),
         (change("formula 2", "formula 12"), "formula = 12: a number from 1 to 9"),
         (change("formula 2", "sellmeier"), "line 7: type \"sellmeier\""),
         (change("coefficients:", "coeffs:"), "line 7: \"formula 2\" needs the field coefficients"),
@@ -181,7 +185,162 @@ fn wrong_files_are_named_with_their_line() {
         let found = message("file.yml", folder.path());
         let short: String = text.chars().take(400).collect();
         assert!(found.contains(expected), "{short}\n{found:?} lacks {expected:?}");
-        assert!(found.contains("file.yml"), "{found}");
+        assert!(found.contains("file"), "{found}");
+    }
+}
+
+/// Real files are like this; the value at 550 nm, or what the message says.
+#[test]
+fn one_odd_row_does_not_condemn_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let nk = |rows: &str| format!("DATA:\n  - type: tabulated nk\n    data: |\n{rows}");
+    let formula = |range: &str, c: &str, rest: &str| {
+        format!(
+            "DATA:\n  - type: {range}\n    coefficients: {c}\n{rest}",
+            range = range.replacen(", ", "\n    wavelength_range: ", 1)
+        )
+    };
+    let k = |rows: &str| format!("  - type: tabulated k\n    data: |\n{rows}");
+    let glass = "3.50 -0.013 2 0.041 -2";
+    let lead = (3.5 - 0.013 * 0.55_f64.powi(2) + 0.041 / 0.55_f64.powi(2)).sqrt();
+    let sound = [
+        (
+            nk("      0.4 0.20 2\n      0.5 0.21 2\n      0.5 0.21 2\n      0.6 0.21 2\n"),
+            0.21,
+            2.0,
+            "",
+        ),
+        (
+            nk("      0.5 0.20 1\n      0.5 0.22 3\n      0.6 0.21 2\n"),
+            0.21,
+            2.0,
+            "2 values of n at 500 nm (lines 4, 5): their mean 0.21",
+        ),
+        (nk("      0.6 1.48 0.1\n      0.5 1.50 0.1\n"), 1.49, 0.1, ""),
+        (
+            nk("      0.4 1.52 0.1\n      0.6 1.48 0.1\n      0.5 1.50 0.1\n"),
+            1.49,
+            0.1,
+            "in no order: sorted",
+        ),
+        (
+            nk("      0.4 1.5 0.02\n      0.5 1.5 -6e-19\n      0.6 1.5 -0.001\n"),
+            1.5,
+            0.0,
+            "2 rows with k below 0 (lowest -1e-3)",
+        ),
+        (
+            nk("      0.3 0 0\n      0.5 1.5 0\n      0.6 1.5 0\n"),
+            1.5,
+            0.0,
+            "n = 0 must be positive",
+        ),
+        (
+            formula("formula 3, 0.365 2.0", glass, &k("      0.28 -0.0\n      0.29 0\n")),
+            lead,
+            0.0,
+            "taken as 0 throughout",
+        ),
+        (
+            formula("formula 1, 0.3 12", "0 1.50 0.18 0.09 6.6", ""),
+            (1.0 + 1.5 * 0.3025 / (0.3025 - 0.0324) + 0.09 * 0.3025 / (0.3025 - 43.56_f64)).sqrt(),
+            0.0,
+            "",
+        ),
+        (nk("      0.55 1.473 0.001\n"), 1.473, 0.001, ""),
+    ];
+    for (text, n, k, note) in sound {
+        write(folder.path(), "f.yml", &text);
+        let medium = resolve("f.yml", folder.path()).unwrap();
+        let index = medium.index(550e-9).unwrap();
+        assert!((index.re - n).abs() < 1e-12 && (index.im - k).abs() < 1e-12, "{text}: {index}");
+        let notes = medium.notes().join("; ");
+        assert!(notes.contains(note) && notes.is_empty() == note.is_empty(), "{text}: {notes}");
+    }
+    let short = formula("formula 3, 0.3 2.0", glass, &k("      0.31 1e-6\n      0.5 1e-8\n"));
+    let unsound = [
+        (short, "data of k of f (310 to 500 nm); its n, 1.905"),
+        (nk("      0.5 1.5 0\n      0.56 -1.5 0\n      0.6 1.5 0\n"), "line 5: n = -1.5 must be"),
+        (nk("      250 2.0 0.5\n      500 2.1 0.6\n"), "(250000 to 500000 nm)"),
+        (nk("      0.5 1.5 -0.1\n      0.6 1.5 -0.2\n"), "k = -0.1 must be 0 or more"),
+        (formula("formula 2, 0.3 13", "3.6 2.2 0.19 1.8", ""), "number of coefficients = 4"),
+        (
+            "DATA:\n  - type: tabulated n2\n    data: |\n      0.5 1e-20\n".into(),
+            "nonlinear index n2",
+        ),
+        (format!("DATA:\n{}", k("      0.5 1e-3\n      0.6 1e-3\n")), "no n (only k)"),
+    ];
+    for (text, expected) in unsound {
+        write(folder.path(), "f.yml", &text);
+        let found = message("f.yml", folder.path());
+        assert!(found.contains(expected), "{text}: {found:?} lacks {expected:?}");
+    }
+    // Far infrared data answer there.
+    write(
+        folder.path(),
+        "f.yml",
+        &nk("      250 2.0 0.5\n      500 2.1 0.6\n      2000 2.4 0.8\n"),
+    );
+    let index = resolve("f.yml", folder.path()).unwrap().index(500e-6).unwrap();
+    assert_eq!((index.re, index.im), (2.1, 0.6));
+}
+
+/// Every dialect gives 1.49 + 0.002i at 500 nm.
+#[test]
+fn dialects_of_text_tables() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = "wavelength_nm,n,k\n400,1.50,0.001\n500,1.49,0.002\n600,1.48,0.003\n";
+    let wide = |text: &str| text.encode_utf16().flat_map(u16::to_le_bytes).collect::<Vec<u8>>();
+    let latin = |text: &str| text.chars().map(|c| c as u32 as u8).collect::<Vec<u8>>();
+    let bytes = |text: &str| text.as_bytes().to_vec();
+    let cases: [(&str, Vec<u8>, &str); 16] = [
+        ("plain.csv", bytes(plain), ""),
+        (
+            "site.csv",
+            bytes("wl,n\n0.4,1.5\n0.5,1.49\n0.6,1.48\n\nwl,k\n0.4,0.001\n0.5,0.002\n"),
+            "",
+        ),
+        ("site.txt", bytes("wl\tn\tk\n0.4\t1.5\t0.001\n0.5\t1.49\t0.002\n"), ""),
+        ("quoted.csv", bytes("\"Wavelength, um\",n,k\n0.4,1.5,0.001\n0.5,1.49,0.002\n"), ""),
+        (
+            "all.csv",
+            bytes(
+                "\"wavelength_nm\",\"n\",\"k\"\n\"400\",\"1.5\",\"0\"\n\"500\",\"1.49\",\"0.002\"\n",
+            ),
+            "",
+        ),
+        ("comma.csv", bytes("wavelength_um;n;k\n0,40;1,50;0,001\n0,50;1,49;0,002\n"), ""),
+        ("tab.tsv", bytes("wavelength_um\tn\tk\n0,40\t1,50\t0,001\n0,50\t1,49\t0,002\n"), ""),
+        (
+            "down.csv",
+            bytes("wavelength_nm,n,k\n600,1.48,0.003\n500,1.49,0.002\n400,1.5,0.001\n"),
+            "",
+        ),
+        ("d.csv", bytes("wavelength_nm,n,k\n4.0D+02,1.5D0,1.0D-03\n5.0D+02,1.49D0,2.0D-03\n"), ""),
+        (
+            "note.csv",
+            bytes("! a\n% b\nwavelength_nm,n,k,\n400,1.5,0.001, # c\n500,1.49,0.002,\n"),
+            "",
+        ),
+        ("mac.csv", bytes(&plain.replace('\n', "\r")), ""),
+        ("utf16.csv", wide(plain), "UTF-16"),
+        ("latin.csv", latin("wavelength (µm),n,k\n0.4,1.5,0.001\n0.5,1.49,0.002\n"), "Latin-1"),
+        ("cm.csv", bytes("wavenumber_cm-1,n,k\n16666,1.48,0.003\n20000,1.49,0.002\n"), ""),
+        (
+            "ev.csv",
+            bytes("Energy (eV),n,kappa\n2.479683968664,1.49,0.002\n3.0,1.5,0.001\n"),
+            "kappa",
+        ),
+        ("eps.csv", bytes("wl,eps1,eps2\n0.4,2.25,0.003\n0.5,2.220096,0.00596\n"), ""),
+    ];
+    for (name, bytes, note) in cases {
+        std::fs::write(folder.path().join(name), bytes).unwrap();
+        let medium = resolve(name, folder.path()).unwrap();
+        let index = medium.index(500e-9).unwrap();
+        let error = (index.re - 1.49).abs().max((index.im - 0.002).abs());
+        assert!(error < 1e-12, "{name}: {index}");
+        let notes = medium.notes().join("; ");
+        assert!(notes.contains(note) && notes.is_empty() == note.is_empty(), "{name}: {notes}");
     }
 }
 
@@ -223,6 +382,8 @@ proptest! {
         let name = if csv { "f.csv" } else { "f.yml" };
         std::fs::write(folder.path().join(name), &bytes).unwrap();
         let _ = resolve(name, folder.path());
+        std::fs::write(folder.path().join("f.agf"), &bytes).unwrap();
+        let _ = resolve("f.agf", folder.path());
     }
 
     /// Nor do broken copies of a sound file.

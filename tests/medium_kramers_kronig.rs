@@ -90,11 +90,12 @@ fn coarse_rows() {
 #[test]
 fn a_measured_dye_obeys_the_relation() {
     let table = read_csv(&file("data/media/rhodamine6g_film_seckin_2023.csv")).unwrap();
-    let absorption = Absorption::new(&table.wavelength, &table.k, Tails::Taper).unwrap();
+    let absorption = Absorption::new(&table.k.wavelength, &table.k.value, Tails::Taper).unwrap();
     let rows: Vec<(f64, f64)> = table
+        .n
         .wavelength
         .iter()
-        .zip(&table.n)
+        .zip(&table.n.value)
         .filter(|(w, _)| (400e-9..=800e-9).contains(*w))
         .map(|(&w, &n)| ((w * 1e6).powi(-2), n - absorption.index_change(w)))
         .collect();
@@ -112,9 +113,10 @@ fn a_measured_dye_obeys_the_relation() {
     assert!((a - 1.494462).abs() < 6e-4 && (b - 0.00445969).abs() < 1e-4, "{a} {b}");
     // The measured n without the transform is nothing like a smooth background.
     let raw: Vec<f64> = table
+        .n
         .wavelength
         .iter()
-        .zip(&table.n)
+        .zip(&table.n.value)
         .filter(|(w, _)| (400e-9..=800e-9).contains(*w))
         .map(|(_, n)| *n)
         .collect();

@@ -216,6 +216,7 @@ fn one_size_is_one_sphere() {
         bandwidth,
         sun_disc: SunDisc::None,
         tolerance: 1e-3,
+        allow_unmet: false,
     };
     let slab = sphere_slab(&job(0.0), &theta, Quantity::PhaseFunction, ForwardPeak::Point).unwrap();
     let single = one(5e-6, 550e-9, Complex64::new(1.334, 1e-4), &AngleSet::new(&theta));
@@ -271,6 +272,7 @@ fn sun_disc_meets_points_strewn_over_it() {
             bandwidth: 0.0,
             sun_disc: disc,
             tolerance: 1e-3,
+            allow_unmet: false,
         };
         let slab = sphere_slab(&job, &theta, Quantity::PhaseFunction, ForwardPeak::Point).unwrap();
         let limb = LimbDarkening::at(550e-9);

@@ -162,3 +162,192 @@ fn too_few_moments_are_told() {
     assert!(few.contains("128 Legendre moments; size parameter 279 has about 575"), "{few}");
     assert_eq!(note("600"), "");
 }
+
+/// Run the program in a folder; its exit code, and what it says on stderr.
+fn gonio(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_gonio"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    (output.status.code().unwrap(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// Extinction per mass (km⁻¹ per g/m³) that libRadtran's layout gets of one wavelength of spheres.
+fn per_mass(folder: &Path, particle: &str, more: &[&str]) -> (f64, String) {
+    let scene = format!(
+        "[particle]\nshape = \"sphere\"\n{particle}\n[light]\nwavelengths_nm = [550]\n[table]\n\
+         theta_deg = {{ from = 0, to = 180, count = 1801 }}\nazimuth_deg = [0]\n[model]\n\
+         method = \"mie\"\ntolerance = 1e-4\n"
+    );
+    fs::write(folder.join("m.toml"), scene).unwrap();
+    let table = ["table", "m.toml", "-o", "m.h5", "--no-preview", "--overwrite"];
+    assert_eq!(gonio(folder, &table), (0, String::new()));
+    let export = ["export", "m.h5", "--to", "libradtran", "--cap-deg", "0", "-o", "m.cdf"];
+    let (code, told) = gonio(folder, &[&export[..], &["--overwrite"], more].concat());
+    assert_eq!(code, 0, "{told}");
+    (values(&folder.join("m.cdf"), "ext")[0], told)
+}
+
+/// Numbers of scatrs (C_ext) over ρ 4/3 π ⟨r³⟩: 28 % more than with the effective radius for ⟨r³⟩ of a
+/// gamma distribution; ice weighs 0.917.
+#[test]
+fn extinction_per_mass_is_of_the_mean_volume_and_the_medium() {
+    let keep = tempfile::tempdir().unwrap();
+    let folder = keep.path();
+    let gamma = "size_distribution = { kind = \"gamma\", effective_radius_um = 10, \
+                 effective_variance = 0.1 }\nmedium = { index = [1.333, 0.0] }";
+    let (ext, told) = per_mass(folder, gamma, &[]);
+    assert!((ext / 156.74 - 1.0).abs() < 1e-3, "{ext}");
+    assert!(
+        told.contains("density 1000 kg/m³, assumed: the index 1.333 is that of water"),
+        "{told}"
+    );
+    let (ext, _) = per_mass(folder, "radius_um = 10\nmedium = { index = [1.333, 0.0] }", &[]);
+    assert!((ext / 152.149 - 1.0).abs() < 1e-4, "{ext}");
+    let (ext, told) = per_mass(folder, "radius_um = 10\nmedium = \"ice\"", &[]);
+    assert!((ext / 166.0 - 1.0).abs() < 5e-4 && !told.contains("density"), "{ext} {told}");
+    assert!((values(&folder.join("m.cdf"), "rho")[0] - 0.917).abs() < 1e-12);
+    // The key and the flag say the same, and the flag wins.
+    let glass = "radius_um = 10\nmedium = { index = [1.5, 0.0] }\n";
+    let (by_key, _) = per_mass(folder, &format!("{glass}density_kg_m3 = 2500.0"), &[]);
+    let (by_flag, _) = per_mass(folder, glass, &["--density-kg-m3", "2500"]);
+    assert_eq!(by_key, by_flag);
+    let (code, told) = gonio(folder, &["export", "m.h5", "--to", "libradtran", "-o", "no.cdf"]);
+    assert_eq!(code, 2, "{told}");
+    assert!(told.contains("particle.density_kg_m3") && told.contains("--density-kg-m3"), "{told}");
+    assert!(!folder.join("no.cdf").exists());
+}
+
+/// A particle that is no sphere: six elements, in the order in which the programs count them.
+#[test]
+fn six_elements_of_particles_that_are_no_spheres() {
+    let keep = tempfile::tempdir().unwrap();
+    let folder = keep.path();
+    let mut table = table_support::table(table_support::header(2, 181, 5, Quantity::Mueller));
+    for slab in &mut table.slabs {
+        slab.values.index_axis_mut(ndarray::Axis(0), 5).mapv_inplace(|v| 0.7 * v);
+        slab.values.index_axis_mut(ndarray::Axis(0), 15).mapv_inplace(|v| 0.5 * v);
+    }
+    table.header.shape = "spheroid".into();
+    hdf5::write(&folder.join("s.h5"), &table, WriteOptions::default()).unwrap();
+    for (format, per_line) in [("eradiate", 2), ("libradtran", 1)] {
+        export(folder, "s.h5", &["--to", format, "--cap-deg", "0", "--moments", "8", "-o", "s.nc"]);
+        let path = folder.join("s.nc");
+        let file = ::hdf5::File::open(&path).unwrap();
+        let names = file.dataset("phamat").unwrap();
+        let names: Vec<::hdf5::types::VarLenUnicode> = names.read_raw().unwrap();
+        let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
+        assert_eq!(names, ["11", "12", "33", "34", "22", "44"], "{format}");
+        let phase = values(&path, "phase");
+        let line = phase.len() / (6 * 2);
+        // Eradiate: element first, then wavelength; libRadtran: wavelength first.
+        let at = |element: usize| phase[element * per_line * line + line / 3];
+        for (element, of, ratio) in [(4, 0, 0.7), (5, 2, 0.5)] {
+            assert!((at(element) / at(of) - ratio).abs() < 1e-5, "{format} {element}");
+        }
+        fs::remove_file(path).unwrap();
+    }
+    let csv = fs::read_to_string(folder.join(export(folder, "s.h5", &["--to", "csv"]))).unwrap();
+    assert!(csv.contains("# spheroid: mean over azimuth"), "{}", &csv[..300]);
+    let (_, told) = gonio(folder, &["export", "s.h5", "--to", "mitsuba", "-o", "m"]);
+    assert!(told.contains("note: spheroid: a mean over azimuth, unpolarised"), "{told}");
+    assert!(told.contains("is not met at 1 of 2 wavelengths"), "{told}");
+}
+
+/// Effective radii and variances of a merged sweep in one file.
+#[test]
+fn a_sweep_of_distributions_makes_one_file() {
+    let keep = tempfile::tempdir().unwrap();
+    let folder = keep.path();
+    let sweep = |variances: &str| {
+        format!(
+            "[particle]\nshape = \"sphere\"\nmedium = \"water\"\nsize_distribution = {{ kind = \"gamma\", \
+             effective_radius_um = [4, 6], effective_variance = {variances} }}\n[light]\n\
+             wavelengths_nm = [800]\n[table]\ntheta_deg = {{ from = 0, to = 180, count = 721 }}\n\
+             [model]\nmethod = \"mie\"\ntolerance = 0.004\n"
+        )
+    };
+    for (name, variances) in [("pairs", "[0.05, 0.1]"), ("radii", "0.1")] {
+        fs::write(folder.join("s.toml"), sweep(variances)).unwrap();
+        let (plan, merged) = (format!("{name}.jsonl"), format!("{name}.h5"));
+        for arguments in [
+            vec!["batch", "plan", "s.toml", "-o", &plan],
+            vec!["batch", "run", "--plan", &plan],
+            vec!["batch", "merge", "--plan", &plan, "-o", &merged],
+            vec!["validate", &merged],
+        ] {
+            let (code, told) = gonio(folder, &arguments);
+            assert_eq!(code, 0, "{arguments:?}: {told}");
+        }
+    }
+    let small = ["--cap-deg", "0", "--moments", "16", "--overwrite", "-o", "o.nc"];
+    let path = folder.join("o.nc");
+    export(folder, "pairs.h5", &[&["--to", "eradiate"], &small[..]].concat());
+    let close = |found: &[f64], expected: &[f64]| {
+        assert_eq!(found.len(), expected.len(), "{found:?}");
+        let fits = found.iter().zip(expected).all(|(a, b)| (a / b - 1.0).abs() < 1e-3);
+        assert!(fits, "{found:?} {expected:?}");
+    };
+    close(&values(&path, "reff"), &[4.0, 6.0]);
+    close(&values(&path, "veff"), &[0.05, 0.1]);
+    let ext = values(&path, "ext");
+    let shadow = |reff: f64, v: f64| 2.2e-12 * 3.14159 * reff * reff * (1.0 - v) * (1.0 - 2.0 * v);
+    for (i, (reff, v)) in [(4.0, 0.05), (4.0, 0.1), (6.0, 0.05), (6.0, 0.1)].into_iter().enumerate()
+    {
+        assert!((ext[i] / shadow(reff, v) - 1.0).abs() < 0.05, "{ext:?}");
+    }
+    export(folder, "radii.h5", &[&["--to", "libradtran"], &small[..]].concat());
+    close(&values(&path, "reff"), &[4.0, 6.0]);
+    let masses = [4.0f64, 6.0].map(|reff| 998.2 * 4.18879e-18 * reff.powi(3) * 0.72);
+    close(&values(&path, "ext"), &[ext[1] / masses[0], ext[3] / masses[1]]);
+    export(folder, "pairs.h5", &[&["--to", "sasktran2"], &small[..]].concat());
+    assert_eq!(values(&path, "effective_radius_um"), [4.0, 6.0]);
+    assert_eq!(values(&path, "xs_total").len(), 4);
+    let (code, told) = gonio(folder, &["export", "pairs.h5", "--to", "libradtran", "-o", "x.cdf"]);
+    assert!(code == 2 && told.contains("one effective variance"), "{told}");
+}
+
+/// A table over the sun's disc says so, and a picture of it is the same with the disc or without.
+#[test]
+fn the_sun_s_disc_is_never_applied_twice() {
+    let keep = tempfile::tempdir().unwrap();
+    let folder = keep.path();
+    let table = [
+        "table",
+        "-o",
+        "t.h5",
+        "--no-preview",
+        "--shape",
+        "sphere",
+        "--radius-um",
+        "40",
+        "--method",
+        "mie",
+        "--sun-disc",
+        "limb-darkened",
+        "--wavelengths-nm",
+        "400:700:7",
+        "--theta-deg",
+        "0:180:721",
+    ];
+    assert_eq!(gonio(folder, &table), (0, String::new()));
+    let info = Command::new(env!("CARGO_BIN_EXE_gonio"))
+        .args(["info", "t.h5"])
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let info = String::from_utf8(info.stdout).unwrap();
+    assert!(info.contains("the sun's disc (limb-darkened)"), "{info}");
+    let picture = |disc: bool| {
+        fs::write(folder.join("p.toml"), format!("[sun]\nelevation_deg = 20\ndisc = {disc}\n"))
+            .unwrap();
+        let render = [
+            "render", "p.toml", "--table", "t.h5", "-o", "p.png", "--width", "64", "--height", "48",
+        ];
+        let (code, told) = gonio(folder, &render);
+        assert!(code == 0 && told.contains("the sun's disc is in the table already"), "{told}");
+        fs::read(folder.join("p.png")).unwrap()
+    };
+    assert_eq!(picture(true), picture(false));
+}

@@ -4,7 +4,9 @@ use super::plan::{BatchPlan, PlannedTable};
 use super::shard::ShardStatus;
 use super::sweep::tidy;
 use super::{BatchError, invalid};
-use crate::hdf5::{AxisValues, SweepAxis, SweepCoordinate, SweepWriter, TableReader, WriteOptions};
+use crate::hdf5::{
+    AxisValues, SweepAxis, SweepCoordinate, SweepWriter, TableError, TableReader, WriteOptions,
+};
 use crate::phase_table::{Slab, TableHeader};
 use ndarray::{Array2, Array3};
 use std::path::Path;
@@ -43,8 +45,12 @@ pub fn merge(
     let mut writer = SweepWriter::create(output, &header, &axes, &options)?;
     for table in there {
         let reader = TableReader::open(&table.file(folder))?;
+        writer.describe(&table.position, reader.header())?;
+        let rounding = reader.rounding()?;
         for index in 0..header.axes.wavelength.len() {
-            let slab = spread(reader.slab(index)?, header.axes.phi.len());
+            let slab = reader.slab(index)?;
+            slab.validate(reader.header(), rounding).map_err(TableError::from)?;
+            let slab = spread(slab, header.axes.phi.len());
             writer.write_slab(&table.position, index, &slab)?;
         }
     }
@@ -68,10 +74,21 @@ fn common_header(
         let same = header.axes.wavelength == first.axes.wavelength
             && header.axes.theta == first.axes.theta
             && header.quantity == first.quantity
+            && header.averaging.sun_disc == first.averaging.sun_disc
             && header.forward_peak == first.forward_peak;
         if !same {
             let accepted = "tables of one plan with the same wavelengths, angles and quantity";
             return Err(invalid("table", &table.id, accepted));
+        }
+        first.averaging.sizes |= header.averaging.sizes;
+        // Effective radii of swept distributions: each table has its own.
+        if header.averaging.sizes && header.radius != first.radius {
+            first.radius = f64::NAN;
+        }
+        if let (Some(all), Some(own)) = (&mut first.bodies, &header.bodies)
+            && !all.density_source.split("; ").any(|source| source == own.density_source)
+        {
+            all.density_source = format!("{}; {}", all.density_source, own.density_source);
         }
         let more = &header.method;
         if !first.method.split('+').any(|method| method == more) {
@@ -146,6 +163,11 @@ fn coordinate<'a>(
         "particle.diameter_mm" => ("radius_um", "um", 500.0),
         "particle.temperature_c" => ("temperature", "degC", 1.0),
         "particle.model" => ("shape_model", "", 1.0),
+        "particle.density_kg_m3" => ("density_kg_m3", "kg m-3", 1.0),
+        sizes if sizes.starts_with("particle.size_distribution.") => {
+            let name = sizes.rsplit('.').next().unwrap_or(sizes);
+            (name, if name.ends_with("_um") { "um" } else { "1" }, 1.0)
+        }
         "light.sun_elevation_deg" => ("sun_elevation", "degree", 1.0),
         other => (other.rsplit('.').next().unwrap_or(other), "1", 1.0),
     };

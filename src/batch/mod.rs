@@ -21,6 +21,7 @@ pub use sweep::{Axis, Sweep};
 
 use crate::hdf5::TableError;
 use crate::scene::{SceneError, human_bytes};
+use crate::series::mean::MeanError;
 use crate::simulate::SimulateError;
 use std::path::PathBuf;
 
@@ -75,9 +76,13 @@ impl BatchError {
             | BatchError::Memory { .. }
             | BatchError::Scene(_) => exit_code::WRONG_INPUT,
             BatchError::Missing { .. } => exit_code::FAILED,
-            BatchError::Numerical { .. } | BatchError::Simulate(SimulateError::Energy { .. }) => {
-                exit_code::NUMERICAL
-            }
+            BatchError::Numerical { .. }
+            | BatchError::Simulate(
+                SimulateError::Energy { .. }
+                | SimulateError::Wrong(_)
+                | SimulateError::Mean(MeanError::Unmet { .. }),
+            )
+            | BatchError::Table(TableError::Table(_)) => exit_code::NUMERICAL,
             BatchError::Simulate(_) => exit_code::WRONG_INPUT,
             BatchError::Table(TableError::NoSpace { .. }) => exit_code::TEMPORARY,
             BatchError::Table(TableError::Write { message, .. })

@@ -7,6 +7,8 @@
 use super::BatchError;
 use super::plan::{BatchPlan, PlannedTable};
 use super::shard::{Shard, compute};
+use crate::plan::Plan;
+use crate::simulate::SimulateError;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -65,7 +67,8 @@ pub fn run(
 fn lanes(tables: &[&PlannedTable], memory: Option<u64>) -> Result<usize, BatchError> {
     let most = rayon::current_num_threads().clamp(1, tables.len().max(1));
     let (Some(first), Some(memory)) = (tables.first(), memory) else { return Ok(most) };
-    let needed = first.scene()?.table_size().working_memory();
+    let scene = first.scene()?;
+    let needed = Plan::new(&scene).map_err(SimulateError::from)?.cost(&scene, most).memory;
     Ok(most.min((memory / needed).max(1) as usize))
 }
 

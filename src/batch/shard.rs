@@ -3,8 +3,9 @@
 use super::BatchError;
 use super::plan::{BatchPlan, PlannedTable};
 use crate::hdf5::{TableError, TableReader, TableWriter, WriteOptions};
+use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::simulate;
+use crate::simulate::{self, SimulateError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -79,7 +80,8 @@ pub fn compute(
                 .map_err(|source| BatchError::Io { path: parent.to_path_buf(), source })?;
         }
         let scene = table.scene()?;
-        let needed = scene.table_size().working_memory();
+        let cores = rayon::current_num_threads();
+        let needed = Plan::new(&scene).map_err(SimulateError::from)?.cost(&scene, cores).memory;
         if let Some(limit) = memory.filter(|limit| needed > *limit) {
             return Err(BatchError::Memory { id: table.id.clone(), needed, limit });
         }

@@ -64,6 +64,10 @@ impl Sweep {
             let Some(Value::Table(keys)) = fixed.get(section) else { continue };
             for (key, value) in keys {
                 let dotted = format!("{section}.{key}");
+                if let (SIZES, Value::Table(distribution)) = (dotted.as_str(), value) {
+                    axes.extend(distribution_axes(distribution)?);
+                    continue;
+                }
                 if let Some(values) = swept_values(&dotted, value)? {
                     axes.push(Axis { keys: vec![dotted], values: vec![values] });
                 }
@@ -104,13 +108,38 @@ impl Sweep {
         for (axis, &at) in self.axes.iter().zip(position) {
             for (key, values) in axis.keys.iter().zip(&axis.values) {
                 let Some((section, name)) = key.split_once('.') else { continue };
-                if let Some(Value::Table(keys)) = scene.get_mut(section) {
-                    keys.insert(name.into(), values[at].clone());
+                let Some(Value::Table(keys)) = scene.get_mut(section) else { continue };
+                match name.split_once('.') {
+                    None => {
+                        keys.insert(name.into(), values[at].clone());
+                    }
+                    Some((table, inner)) => {
+                        if let Some(Value::Table(keys)) = keys.get_mut(table) {
+                            keys.insert(inner.into(), values[at].clone());
+                        }
+                    }
                 }
             }
         }
         scene.to_string()
     }
+}
+
+/// The key whose table may hold lists too: a sweep over effective radii, say, in one distribution.
+const SIZES: &str = "particle.size_distribution";
+/// Its lists that are data and not swept.
+const DATA: [&str; 3] = ["edges_radius_um", "number", "file"];
+
+/// The axes within a distribution of sizes.
+fn distribution_axes(distribution: &Table) -> Result<Vec<Axis>, BatchError> {
+    let mut axes = Vec::new();
+    for (key, value) in distribution.iter().filter(|(key, _)| !DATA.contains(&key.as_str())) {
+        let dotted = format!("{SIZES}.{key}");
+        if let Some(values) = swept_values(&dotted, value)? {
+            axes.push(Axis { keys: vec![dotted], values: vec![values] });
+        }
+    }
+    Ok(axes)
 }
 
 /// The values of a key that is swept; `None` for one that is not.
@@ -253,6 +282,26 @@ mod tests {
         assert_eq!(scene["light"]["wavelengths_nm"].as_array().unwrap().len(), 2);
         assert_eq!(scene["model"]["orders"].as_array().unwrap().len(), 3);
         assert!(scene["particle"]["medium"].is_table());
+    }
+
+    #[test]
+    fn parameters_of_a_distribution_are_swept() {
+        let text = "[particle]\nshape = \"sphere\"\nsize_distribution = { kind = \"gamma\", \
+            effective_radius_um = [5, 10], effective_variance = { from = 0.05, to = 0.1, count = 2 } }";
+        let sweep = Sweep::parse(text).unwrap();
+        let keys: Vec<_> = sweep.axes.iter().map(|axis| axis.keys[0].as_str()).collect();
+        assert_eq!(
+            keys,
+            [
+                "particle.size_distribution.effective_radius_um",
+                "particle.size_distribution.effective_variance",
+            ]
+        );
+        let scene: Table = sweep.scene(&[1, 0]).parse().unwrap();
+        let sizes = &scene["particle"]["size_distribution"];
+        assert_eq!(sizes["effective_radius_um"].as_integer(), Some(10));
+        assert_eq!(sizes["effective_variance"].as_float(), Some(0.05));
+        assert_eq!(sizes["kind"].as_str(), Some("gamma"));
     }
 
     #[test]

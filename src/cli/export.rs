@@ -3,8 +3,11 @@
 use super::UsageError;
 use clap::{Args, ValueEnum};
 use gonio::export::average::{Averaged, average};
+use gonio::export::notes::{density_note, notes};
+use gonio::export::sasktran2::SizeDimension;
+use gonio::export::size_grid::SizeGrid;
 use gonio::export::{csv, eradiate, exr, libradtran, mitsuba, sasktran2, strip};
-use gonio::hdf5::{self, AxisValues, SweepReader, TableError, write_netcdf};
+use gonio::hdf5::{self, AxisValues, SweepReader, TableError, position_of, write_netcdf};
 use gonio::pending_file::write_whole;
 use gonio::phase_table::PhaseTable;
 use std::f64::consts::TAU;
@@ -15,11 +18,11 @@ use std::path::{Path, PathBuf};
 enum Format {
     /// Folder for Mitsuba 3: spectral table, Python plugin, scene, tabphase strings
     Mitsuba,
-    /// Eradiate Aer-Core v2 netCDF
+    /// Eradiate Aer-Core v2 netCDF; a sweep of effective radii and variances gives all pairs
     Eradiate,
-    /// sasktran2 scatterer database (netCDF); a sweep of radii gives all of them
+    /// sasktran2 scatterer database (netCDF); a sweep of sizes gives all of them
     Sasktran2,
-    /// libRadtran .mie.cdf layout (netCDF)
+    /// libRadtran .mie.cdf layout (netCDF); a sweep of effective radii gives all of them
     Libradtran,
     /// Comma-separated values, mean over azimuth
     Csv,
@@ -36,7 +39,9 @@ enum Format {
 #[command(after_help = "Example: gonio export raindrop.h5 --to sasktran2 -o raindrop.nc
 
 The forward peak is cut below --cap-deg; what was cut counts as unscattered and its share is
-recorded. Give --cap-deg 0 to keep it.")]
+recorded. Give --cap-deg 0 to keep it. Particles that are no spheres have six elements (11, 12, 22, 33,
+34, 44) for Eradiate, libRadtran, sasktran2 and csv, mean over azimuth; mitsuba, exr and strip take
+unpolarised light (element 11). libRadtran's extinction is per mass and needs the medium's density.")]
 pub struct ExportArgs {
     /// Table
     #[arg(value_name = "FILE.h5")]
@@ -56,6 +61,9 @@ pub struct ExportArgs {
     /// Legendre moments per element
     #[arg(long, value_name = "N", default_value_t = 384)]
     moments: u16,
+    /// Density of the medium, in place of the table's (libradtran: extinction per mass)
+    #[arg(long, value_name = "KG_M3", allow_negative_numbers = true)]
+    density_kg_m3: Option<f64>,
     /// Azimuth of the colour strip
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     azimuth_deg: f64,
@@ -84,28 +92,32 @@ pub fn run(args: ExportArgs) -> anyhow::Result<()> {
     if output.exists() && !args.overwrite {
         return Err(TableError::Exists { path: output }.into());
     }
-    let tables = read(&args)?;
+    let Source { tables, sizes } = read(&args)?;
     let table = &tables[0];
     let cap = args.cap_deg.to_radians();
     let moments = usize::from(args.moments);
     note_on_moments(&args, &tables);
+    note_on_tables(&args, &tables);
     match args.to {
-        Format::Mitsuba => write_mitsuba(&average(table, cap)?, &output, args.samples)?,
-        Format::Eradiate => {
-            let content = eradiate::database(table, &average(table, cap)?, moments);
+        Format::Mitsuba => write_mitsuba(table, &average(table, cap)?, &output, args.samples)?,
+        Format::Eradiate | Format::Libradtran => {
+            let grid = SizeGrid::new(tables)?;
+            let averaged =
+                grid.tables.iter().map(|t| average(t, cap)).collect::<Result<Vec<_>, _>>()?;
+            let content = match args.to {
+                Format::Eradiate => eradiate::database(&grid, &averaged, moments)?,
+                _ => libradtran::database(&grid, &averaged, moments)?,
+            };
             write_netcdf(&output, &content, args.overwrite)?;
         }
         Format::Sasktran2 => {
             let averaged =
                 tables.iter().map(|t| average(t, cap)).collect::<Result<Vec<Averaged>, _>>()?;
             let pairs: Vec<_> = tables.iter().zip(&averaged).collect();
-            write_netcdf(&output, &sasktran2::database(&pairs, moments), args.overwrite)?;
-        }
-        Format::Libradtran => {
-            let content = libradtran::database(table, &average(table, cap)?, moments);
+            let content = sasktran2::database(&pairs, &sizes, moments);
             write_netcdf(&output, &content, args.overwrite)?;
         }
-        Format::Csv => save(&output, csv::averaged(&average(table, cap)?).as_bytes())?,
+        Format::Csv => save(&output, csv::averaged(table, &average(table, cap)?).as_bytes())?,
         Format::CsvFull => save(&output, csv::every_sample(table).as_bytes())?,
         Format::Exr => {
             if !(args.radius_deg > 0.0 && args.radius_deg <= 180.0) {
@@ -147,35 +159,99 @@ fn note_on_moments(args: &ExportArgs, tables: &[PhaseTable]) {
     }
 }
 
-/// The table; for sasktran2 all tables of a sweep of radii.
-fn read(args: &ExportArgs) -> anyhow::Result<Vec<PhaseTable>> {
-    match hdf5::read(&args.file) {
-        Ok(table) => Ok(vec![table]),
-        Err(TableError::Foreign { .. }) if SweepReader::open(&args.file).is_ok() => {
-            let reader = SweepReader::open(&args.file)?;
-            let one_axis_of_radii = matches!(
-                reader.axes(),
-                [axis] if axis.coordinates.iter().any(|c| c.name == "radius_um"
-                    && matches!(c.values, AxisValues::Numbers(_)))
-            );
-            if args.to != Format::Sasktran2 || !one_axis_of_radii {
-                return Err(UsageError(format!(
-                    "{}: a sweep; only a sweep over the radius alone can be exported, to sasktran2",
-                    args.file.display()
-                ))
-                .into());
+/// Say what the tables are worth, and what the format takes them for.
+fn note_on_tables(args: &ExportArgs, tables: &[PhaseTable]) {
+    let mut told: Vec<String> = Vec::new();
+    for table in tables {
+        let density = (args.to == Format::Libradtran).then(|| density_note(table)).flatten();
+        let shape = (args.to == Format::Mitsuba && table.header.shape != "sphere").then(|| {
+            format!(
+                "{}: a mean over azimuth, unpolarised; Mitsuba knows only the scattering angle",
+                table.header.shape
+            )
+        });
+        for note in notes(table).into_iter().chain(density).chain(shape) {
+            if !told.contains(&note) {
+                eprintln!("note: {note}");
+                told.push(note);
             }
-            let tables = reader.present()?.len();
-            Ok((0..tables).map(|i| reader.table(&[i])).collect::<Result<_, _>>()?)
         }
-        Err(error) => Err(error.into()),
     }
 }
 
-fn write_mitsuba(averaged: &Averaged, folder: &Path, samples: u32) -> anyhow::Result<()> {
+/// What is exported: one table, or those of a sweep with its axes.
+struct Source {
+    tables: Vec<PhaseTable>,
+    /// As sasktran2 names them; empty for one table.
+    sizes: Vec<SizeDimension>,
+}
+
+/// The table, or all tables of a sweep of sizes.
+fn read(args: &ExportArgs) -> anyhow::Result<Source> {
+    let mut source = match hdf5::read(&args.file) {
+        Ok(table) => Source { tables: vec![table], sizes: Vec::new() },
+        Err(TableError::Foreign { .. }) if SweepReader::open(&args.file).is_ok() => {
+            read_sweep(args)?
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let Some(density) = args.density_kg_m3 else { return Ok(source) };
+    if !(density.is_finite() && (1e-3..=3e4).contains(&density)) {
+        let message = format!("--density-kg-m3 {density}: 0.001 to 30000 kg/m³ is accepted");
+        return Err(UsageError(message).into());
+    }
+    for table in &mut source.tables {
+        if let Some(bodies) = table.header.bodies.take() {
+            table.header.bodies = Some(bodies.with_density(Some(density), "given to the export"));
+        }
+    }
+    Ok(source)
+}
+
+fn read_sweep(args: &ExportArgs) -> anyhow::Result<Source> {
+    let reader = SweepReader::open(&args.file)?;
+    let refuse = |why: String| UsageError(format!("{}: a sweep; {why}", args.file.display()));
+    if !matches!(args.to, Format::Eradiate | Format::Sasktran2 | Format::Libradtran) {
+        let why = "it can be exported to eradiate, sasktran2 or libradtran, which hold many sizes";
+        return Err(refuse(why.into()).into());
+    }
+    let mut sizes = Vec::new();
+    for axis in reader.axes() {
+        let numbers = axis.coordinates.iter().find_map(|coordinate| match &coordinate.values {
+            AxisValues::Numbers(values) if is_size(&coordinate.name) => {
+                Some(SizeDimension::of_coordinate(&coordinate.name, &coordinate.units, values))
+            }
+            _ => None,
+        });
+        let name = axis.coordinates.first().map_or("", |coordinate| &coordinate.name);
+        let why = format!("its axis {name} is no size of particles, and the format has only those");
+        sizes.push(numbers.ok_or_else(|| refuse(why))?);
+    }
+    let shape: Vec<usize> = reader.axes().iter().map(|axis| axis.len()).collect();
+    let present = reader.present()?;
+    if present.iter().any(|present| !present) {
+        return Err(refuse("tables of it are missing".into()).into());
+    }
+    let tables = (0..present.len()).map(|i| reader.table(&position_of(i, &shape)));
+    Ok(Source { tables: tables.collect::<Result<_, _>>()?, sizes })
+}
+
+/// Names of swept keys that are sizes of particles or parameters of their distribution.
+fn is_size(name: &str) -> bool {
+    const PARAMETERS: [&str; 4] =
+        ["spread", "effective_variance", "deviation_um", "rain_rate_mm_h"];
+    name.ends_with("radius_um") || PARAMETERS.contains(&name)
+}
+
+fn write_mitsuba(
+    table: &PhaseTable,
+    averaged: &Averaged,
+    folder: &Path,
+    samples: u32,
+) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)?;
     save(&folder.join("phase.csv"), mitsuba::spectral_table(averaged).as_bytes())?;
-    let strings = mitsuba::tabphase(averaged, samples as usize);
+    let strings = mitsuba::tabphase(table, averaged, samples as usize);
     save(&folder.join("tabphase.txt"), strings.as_bytes())?;
     save(&folder.join("gonio_phase.py"), mitsuba::PLUGIN.as_bytes())?;
     save(&folder.join("scene.py"), mitsuba::SCENE.as_bytes())

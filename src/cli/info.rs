@@ -4,7 +4,7 @@ use super::UsageError;
 use clap::Args;
 use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, decimal_bytes};
 use gonio::math::digits::to_digits;
-use gonio::phase_table::TableHeader;
+use gonio::phase_table::{ERROR_BANDS, TableHeader, error_theta};
 use gonio::scene::Named;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -61,6 +61,16 @@ fn common(path: &Path, header: &TableHeader) -> Value {
         "shape": header.shape,
         "radius_um": number(header.radius * 1e6),
         "sun_elevation_deg": number(header.sun_elevation.to_degrees()),
+        "particles": header.bodies.as_ref().map(|bodies| json!({
+            "effective_radius_um": number(bodies.effective_radius * 1e6),
+            "effective_variance": number(bodies.effective_variance),
+            "mean_volume_m3": number(bodies.mean_volume),
+            "mean_projected_area_m2": number(bodies.mean_area),
+            "density_kg_m3": bodies.density.map(number),
+            "density_source": bodies.density.map(|_| &bodies.density_source),
+        })),
+        "averaged_over": header.averaging.words(),
+        "tolerance_asked": number(header.tolerance),
         "rotational_symmetry": header.rotational_symmetry,
         "forward_peak": format!("{:?}", header.forward_peak),
         "wavelength_nm": nanometres,
@@ -78,11 +88,18 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
         let face = slab.values.index_axis(ndarray::Axis(0), 0);
         let most = face.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         let least = face.iter().copied().fold(f32::INFINITY, f32::min);
+        let by_direction: Vec<Value> = slab
+            .error_by_direction
+            .iter()
+            .map(|&error| if error.is_finite() { json!(to_digits(error, 3)) } else { Value::Null })
+            .collect();
         slabs.push(json!({
             "wavelength_nm": tidy(slab.wavelength * 1e9),
             "index": [slab.index.re, slab.index.im],
             "scattering_cross_section_m2": slab.scattering_cross_section,
             "extinction_cross_section_m2": slab.extinction_cross_section,
+            "absorption_cross_section_m2": slab.absorption_cross_section,
+            "extinction_straight_ahead_m2": slab.forward_extinction,
             "asymmetry": slab.asymmetry,
             "sum": slab.sum(&header.axes),
             "sum_before_peak": slab.sum_before_peak,
@@ -90,6 +107,9 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "largest_per_sr": most,
             "error_estimate": number(slab.error_estimate),
             "error_estimate_by_band": number(slab.error_by_band),
+            "tolerance_met": slab.tolerance_met,
+            "error_estimate_by_direction": by_direction,
+            "left_out_share": slab.left_out,
             "samples_beyond_two_rays": slab
                 .caustic_order
                 .as_ref()
@@ -97,6 +117,8 @@ fn describe(path: &Path, reader: &TableReader) -> anyhow::Result<Value> {
             "energy": slab.energy,
         }));
     }
+    let bands: Vec<f64> = (0..ERROR_BANDS).map(|k| tidy(error_theta(k).to_degrees())).collect();
+    description["error_theta_deg"] = json!(bands);
     description["wavelengths"] = Value::Array(slabs);
     for name in ["program_version", "git_hash", "date_created", "command_line", "license"] {
         description[name] = json!(reader.attribute(name)?);

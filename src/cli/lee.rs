@@ -122,10 +122,12 @@ fn usage(message: impl Into<String>) -> anyhow::Error {
 }
 
 fn request(args: &LeeArgs) -> anyhow::Result<Request> {
+    let medium = MediumSpec::parse(&args.medium)?.resolve(Path::new("."))?;
+    super::notes::tell(medium.notes());
     Ok(Request {
         radii: ranges::radii(&args.radius_mm, args.linear)?,
         theta: ranges::angles(&args.theta)?,
-        medium: MediumSpec::parse(&args.medium)?.resolve(Path::new("."))?,
+        medium,
         sun_disc: !args.no_sun_disc,
         size_spread: args.size_spread,
         illuminant: args

@@ -8,8 +8,8 @@ use super::plot;
 use anyhow::Result;
 use clap::Args;
 use gonio::medium::{
-    Abbe, AbbeLines, LibraryEntry, Medium, MediumSpec, NamedSpec, abbe_to_sellmeier, fit_cauchy,
-    list,
+    Abbe, AbbeLines, Extinction, LibraryEntry, Medium, MediumError, MediumSpec, abbe_to_sellmeier,
+    fit_cauchy, list,
 };
 use num_complex::Complex64;
 use serde_json::{Value, json};
@@ -20,32 +20,38 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Clone, Debug)]
 #[command(after_help = AFTER_HELP, arg_required_else_help = true)]
 pub struct MaterialArgs {
-    /// Name in the library, FILE.yml (refractiveindex.info), FILE.csv, or a table as in a scene file
+    /// Name in the library, FILE.yml (refractiveindex.info), FILE.csv, FILE.agf:GLASS (Zemax), or a
+    /// table as in a scene file
     #[arg(value_name = "NAME", conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     name: Option<String>,
     /// List the library
     #[arg(long, conflicts_with_all = ["from_abbe", "kramers_kronig"])]
     list: bool,
     /// Wavelengths in vacuum: values and FROM:TO:STEP ranges, separated by commas
-    #[arg(long, value_name = "NM", value_parser = parse_wavelengths)]
+    #[arg(long, value_name = "NM", value_parser = parse_wavelengths, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     wavelength_nm: Option<Wavelengths>,
     /// Temperature of water (default 20)
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    #[arg(long, value_name = "C", allow_negative_numbers = true, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     temperature_c: Option<f64>,
     /// Density of water or steam (default: the liquid at 1 atm)
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     density_kg_m3: Option<f64>,
     /// Salinity of sea water (default 35)
-    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    #[arg(long, value_name = "G", allow_negative_numbers = true, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     salinity_g_kg: Option<f64>,
     /// Answer outside the data too: formulas go on, tables hold their end value
-    #[arg(long)]
+    #[arg(long, requires = "name",
+          conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     extrapolate: bool,
     /// A second material, to be set beside the first
     #[arg(long, value_name = "NAME", requires = "name")]
     compare: Option<String>,
     /// Least-squares Cauchy formula of so many terms over the wavelengths (default 400 to 700 nm)
-    #[arg(long, value_name = "TERMS", requires = "name")]
+    #[arg(long, value_name = "TERMS", requires = "name", conflicts_with = "compare")]
     to_cauchy: Option<usize>,
     /// Cauchy A and B from index and Abbe number, as in 1.5168,64.17
     #[arg(long, value_name = "N,V", value_parser = parse_abbe, conflicts_with = "kramers_kronig")]
@@ -101,12 +107,17 @@ pub fn run(args: MaterialArgs) -> Result<()> {
         let message = "material: give a NAME, --list, --from-abbe or --kramers-kronig".into();
         return Err(UsageError(message).into());
     };
-    let medium = medium(name, &args)?;
+    let medium = match medium(name, &args) {
+        Err(error) if only_extinction(&error) && args.to_cauchy.is_none() => {
+            return extinction(&args, Path::new(name.trim()), error);
+        }
+        other => other?,
+    };
     if let Some(terms) = args.to_cauchy {
         return to_cauchy(&args, &medium, terms);
     }
     let other = match &args.compare {
-        Some(other) => Some(MediumSpec::parse(other)?.resolve(Path::new("."))?),
+        Some(other) => Some(resolved(&MediumSpec::parse(other)?)?),
         None => None,
     };
     if let Some(path) = args.output.as_ref().filter(|path| is_plot(path)) {
@@ -128,26 +139,74 @@ pub fn run(args: MaterialArgs) -> Result<()> {
 /// The medium of a name or file, with the conditions given by flags.
 fn medium(name: &str, args: &MaterialArgs) -> Result<Medium> {
     let mut spec = MediumSpec::parse(name)?;
+    let refuse = |flags: &str| Err(UsageError(format!("{name}: {flags}")).into());
     let conditions = [args.temperature_c, args.density_kg_m3, args.salinity_g_kg];
     match &mut spec {
         MediumSpec::Named(named) => {
-            *named = NamedSpec {
-                name: std::mem::take(&mut named.name),
-                temperature_c: args.temperature_c,
-                density_kg_m3: args.density_kg_m3,
-                salinity_g_kg: args.salinity_g_kg,
-                extrapolate: args.extrapolate,
-            };
+            let own =
+                [&mut named.temperature_c, &mut named.density_kg_m3, &mut named.salinity_g_kg];
+            for ((own, flag), key) in own.into_iter().zip(conditions).zip(CONDITIONS) {
+                match (&own, flag) {
+                    (Some(own), Some(flag)) if *own != flag => {
+                        return refuse(&format!("{key} = {own} disagrees with the flag's {flag}"));
+                    }
+                    _ => *own = own.or(flag),
+                }
+            }
+            named.extrapolate |= args.extrapolate;
         }
         _ if conditions.iter().any(Option::is_some) => {
-            let message =
-                format!("{name}: temperature, density and salinity go with a name of the library");
-            return Err(UsageError(message).into());
+            return refuse("temperature, density and salinity go with a name of the library");
         }
         MediumSpec::File { extrapolate, .. } => *extrapolate |= args.extrapolate,
+        _ if args.extrapolate => {
+            return refuse("--extrapolate goes with a name of the library or a file");
+        }
         _ => {}
     }
-    Ok(spec.resolve(Path::new("."))?)
+    resolved(&spec)
+}
+
+/// Keys of the conditions of a named medium, in the order of their flags.
+const CONDITIONS: [&str; 3] = ["temperature_c", "density_kg_m3", "salinity_g_kg"];
+
+fn only_extinction(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(MediumError::OnlyExtinction { .. }))
+}
+
+/// k of a file that has no n, which is shown though it makes no medium.
+fn extinction(args: &MaterialArgs, path: &Path, error: anyhow::Error) -> Result<()> {
+    let plot = args.output.as_ref().is_some_and(|path| is_plot(path));
+    let data = match Extinction::read(path) {
+        Ok(Some(data)) if args.compare.is_none() && !plot => data,
+        _ => return Err(error),
+    };
+    super::notes::tell(data.notes.iter().map(|note| format!("{}: {note}", data.name)));
+    super::notes::tell([error.to_string()]);
+    let nm = match &args.wavelength_nm {
+        Some(given) => given.0.clone(),
+        None => {
+            let (from, to) = data.range();
+            (0..=20).map(|i| 1e9 * (from + (to - from) * f64::from(i) / 20.0)).collect()
+        }
+    };
+    let k = nm.iter().map(|nm| data.value(nm / 1e9)).collect::<Result<Vec<_>, _>>()?;
+    let mut text = format!("{}\nsource: {}\n", data.name, data.source);
+    let _ = writeln!(text, "{:>14}  {:>12}  {:>12}", "wavelength_nm", "n", "k");
+    for (nm, k) in nm.iter().zip(&k) {
+        let _ = writeln!(text, "{nm:>14}  {:>12}  {k:>12.5e}", "unknown");
+    }
+    let value = json!({
+        "name": data.name, "source": data.source, "wavelength_nm": nm, "n": null, "k": k,
+    });
+    emit(args, text, value)
+}
+
+/// The medium; what its files' readers have to say goes to stderr.
+fn resolved(spec: &MediumSpec) -> Result<Medium> {
+    let medium = spec.resolve(Path::new("."))?;
+    super::notes::tell(medium.notes());
+    Ok(medium)
 }
 
 /// What was asked for, or every 20 nm of visible light that the data cover.
@@ -163,7 +222,11 @@ fn wavelengths(args: &MaterialArgs, medium: &Medium, other: Option<&Medium>) -> 
         return inside;
     }
     let (from, to) = medium.valid_range();
-    (0..=20).map(|i| 1e9 * (from + (to - from) * f64::from(i) / 20.0)).collect()
+    let count = if to > from { 20 } else { 0 };
+    let all: Vec<f64> =
+        (0..=count).map(|i| 1e9 * (from + (to - from) * f64::from(i) / 20.0)).collect();
+    let inside: Vec<f64> = all.iter().copied().filter(|&nm| covers(medium, nm)).collect();
+    if inside.is_empty() { all } else { inside }
 }
 
 impl Evaluated {

@@ -2,6 +2,7 @@
 
 use super::UsageError;
 use clap::Args;
+use gonio::plan::{Engine, Plan};
 use gonio::scene::{Scene, human_bytes};
 
 /// The flag of commands that estimate their memory before they start.
@@ -19,21 +20,31 @@ impl MemoryFlag {
     }
 
     /// Refuse a scene that would not fit.
-    pub fn check(self, scene: &Scene) -> Result<(), UsageError> {
-        let size = scene.table_size();
-        let needed = size.working_memory();
-        match self.limit() {
-            Some(limit) if needed > limit => Err(UsageError(format!(
-                "table.theta_deg × table.azimuth_deg = {} × {}: a wavelength of {} needs about {} of \
-                 memory, the limit is {}; take fewer angles, or raise --memory-limit",
-                scene.theta.len(),
-                scene.phi.len(),
-                human_bytes(size.slab_bytes),
-                human_bytes(needed),
-                human_bytes(limit)
-            ))),
-            _ => Ok(()),
-        }
+    pub fn check(self, scene: &Scene) -> anyhow::Result<()> {
+        let plan = Plan::new(scene)?;
+        let needed = plan.cost(scene, rayon::current_num_threads()).memory;
+        let Some(limit) = self.limit().filter(|limit| needed > *limit) else { return Ok(()) };
+        let rays = match plan.engine {
+            Engine::Patches => {
+                format!(
+                    " with model.rays_across = {} ({} orders)",
+                    2 * plan.rings,
+                    plan.orders.len()
+                )
+            }
+            _ => String::new(),
+        };
+        let fewer = if rays.is_empty() { "angles" } else { "angles or rays" };
+        Err(UsageError(format!(
+            "table.theta_deg × table.azimuth_deg = {} × {}{rays}: a wavelength of {} needs about {} of \
+             memory, the limit is {}; take fewer {fewer}, or raise --memory-limit",
+            scene.theta.len(),
+            scene.phi.len(),
+            human_bytes(scene.table_size().slab_bytes),
+            human_bytes(needed),
+            human_bytes(limit)
+        ))
+        .into())
     }
 }
 

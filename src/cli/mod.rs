@@ -4,12 +4,14 @@
 mod batch;
 mod bench;
 mod compare;
+mod cpu_time;
 mod export;
 mod info;
 mod interrupt;
 mod lee;
 mod material;
 mod memory;
+mod notes;
 mod plan;
 mod plot;
 mod progress;
@@ -156,6 +158,7 @@ fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
             Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
             Some(SimulateError::Series(inner)) => is_wrong_input(inner),
             Some(SimulateError::Mean(MeanError::Series(inner))) => is_wrong_input(inner),
+            Some(SimulateError::Mean(MeanError::Unmet { .. })) => false,
             Some(SimulateError::Mean(_)) => true,
             _ => false,
         }

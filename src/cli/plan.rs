@@ -1,13 +1,13 @@
 //! `gonio plan`: what a scene would compute, what is skipped and why.
 
+use super::cpu_time::CpuTime;
 use super::scene_flags::SceneFlags;
 use clap::Args;
 use gonio::plan::methods::MethodRange;
-use gonio::plan::{Plan, Symmetry};
-use gonio::scene::human_bytes;
+use gonio::plan::{Engine, Plan, Symmetry};
+use gonio::scene::{Scene, human_bytes};
 use gonio::simulate;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// What would be computed, what is skipped and why, time and memory expected
 #[derive(Args)]
@@ -25,11 +25,11 @@ pub struct PlanArgs {
 pub fn run(args: PlanArgs) -> anyhow::Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
     let plan = Plan::new(&scene)?;
-    let size = scene.table_size();
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, _) = plan.computed_azimuths(&azimuths);
-    // The time of one small slab, scaled: everything but the samples is the same for all.
-    let seconds = expected_seconds(&scene, &plan, computed.len())?;
+    let threads = rayon::current_num_threads();
+    let cost = plan.cost(&scene, threads);
+    let seconds = cost.writing_seconds + physics_seconds(&scene, &plan, &computed)?;
     let engine = format!("{:?}", plan.engine);
     let methods = plan.methods(&scene)?;
     if args.json {
@@ -43,8 +43,9 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
             "theta": scene.theta.len(),
             "azimuths_stored": azimuths.len(),
             "azimuths_computed": computed.len(),
-            "memory_bytes": size.working_memory(),
-            "expected_seconds": seconds,
+            "memory_bytes": cost.memory,
+            "cpu_seconds": seconds,
+            "expected_seconds": seconds / threads as f64,
             "reasons": plan.reasons,
         });
         println!("{report}");
@@ -65,9 +66,9 @@ pub fn run(args: PlanArgs) -> anyhow::Result<()> {
         println!("- {reason}");
     }
     println!(
-        "expected: {seconds:.1} s on {} threads, {} of memory",
-        rayon::current_num_threads(),
-        human_bytes(size.working_memory())
+        "expected: {seconds:.1} s of processor time ({:.1} s on {threads} idle cores), {} of memory",
+        seconds / threads as f64,
+        human_bytes(cost.memory)
     );
     Ok(())
 }
@@ -90,28 +91,53 @@ fn print_range(range: &MethodRange) {
     }
 }
 
-/// Time one wavelength at a tenth of the azimuths, and scale up.
-fn expected_seconds(
-    scene: &gonio::scene::Scene,
-    plan: &Plan,
-    computed: usize,
-) -> anyhow::Result<f64> {
-    let few = computed.div_ceil(10).max(2);
-    let mut probe = scene.clone();
-    probe.phi = scene.phi.iter().copied().take(1).collect();
-    let Some(&wavelength) = scene.wavelengths.first() else { return Ok(0.0) };
-    let start = Instant::now();
-    simulate::slab(&probe, plan, wavelength)?;
-    let one = start.elapsed().as_secs_f64();
-    if computed <= 2 {
-        return Ok(one * scene.wavelengths.len() as f64);
+/// Processor time that trials take at least, so that the clock's ticks do not matter.
+const LEAST_TRIAL: f64 = 0.3;
+/// Azimuths of the two trials where all are not tried: as many as are interpolated from traced ones and
+/// not traced themselves (more than 40 with their opposites), and some more.
+const TRIED: [usize; 2] = [24, 36];
+
+/// Processor time of all wavelengths: trials at some of them, scaled up.
+fn physics_seconds(scene: &Scene, plan: &Plan, computed: &[f64]) -> anyhow::Result<f64> {
+    let count = scene.wavelengths.len();
+    // in the middle first, then to both sides: time goes with the size parameter
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by_key(|&i| (2 * i + 1).abs_diff(count));
+    let (mut spent, mut tried) = (0.0, 0);
+    for &i in &order {
+        spent += slab_seconds(scene, plan, computed, scene.wavelengths[i])?;
+        tried += 1;
+        if spent > LEAST_TRIAL {
+            break;
+        }
     }
-    let step = scene.phi.len().div_ceil(2 * few).max(1);
-    probe.phi = scene.phi.iter().copied().step_by(step).collect();
-    let (some, _) = plan.computed_azimuths(&probe.phi);
-    let start = Instant::now();
-    simulate::slab(&probe, plan, wavelength)?;
-    let several = start.elapsed().as_secs_f64();
-    let per_azimuth = ((several - one) / (some.len().max(2) - 1) as f64).max(0.0);
-    Ok((one + per_azimuth * computed as f64) * scene.wavelengths.len() as f64)
+    Ok(spent / f64::from(tried) * count as f64)
+}
+
+/// Processor time of one wavelength.
+fn slab_seconds(
+    scene: &Scene,
+    plan: &Plan,
+    computed: &[f64],
+    wavelength: f64,
+) -> anyhow::Result<f64> {
+    let time = |azimuths: Vec<f64>| -> anyhow::Result<f64> {
+        let probe = Scene { phi: azimuths, ..scene.clone() };
+        let watch = CpuTime::start();
+        simulate::slab(&probe, plan, wavelength)?;
+        Ok(watch.seconds())
+    };
+    let series = matches!(plan.engine, Engine::LorenzMie | Engine::Debye);
+    if series || computed.len() <= TRIED[1] {
+        return time(scene.phi.clone());
+    }
+    let some = |tried: usize| -> Vec<f64> {
+        // not symmetric about a right angle: their opposites are others
+        let place = |k: usize| (k as f64 + 0.31) / tried as f64 * computed.len() as f64;
+        (0..tried).map(|k| computed[place(k) as usize]).collect()
+    };
+    let [few, more] = TRIED;
+    let (low, high) = (time(some(few))?, time(some(more))?);
+    let each = ((high - low) / (more - few) as f64).clamp(0.0, high / more as f64);
+    Ok(low + each * (computed.len() - few) as f64)
 }

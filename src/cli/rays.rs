@@ -5,7 +5,7 @@ mod plane;
 
 use super::UsageError;
 use super::plot::write_whole;
-use super::scatter_input::{Index, ShapeKind, parse_index, raindrop_model};
+use super::scatter_input::{Index, ShapeFlags, ShapeKind, parse_index, raindrop_model};
 use anyhow::Result;
 use clap::Args;
 use gonio::medium::Medium;
@@ -24,12 +24,12 @@ use std::path::PathBuf;
 pub struct RaysArgs {
     #[arg(long, value_enum, default_value = "sphere")]
     shape: ShapeKind,
-    /// Radius of the sphere of equal volume, millimetres
+    /// Radius of the sphere of equal volume, millimetres: it gives a raindrop its shape
     #[arg(long, default_value_t = 0.5)]
     radius_mm: f64,
-    /// Raindrop model
-    #[arg(long, default_value = "beard-chuang-1987")]
-    model: String,
+    /// Raindrop model (default: beard-chuang-1987)
+    #[arg(long)]
+    model: Option<String>,
     /// Vertical over horizontal diameter of a spheroid
     #[arg(long)]
     axis_ratio: Option<f64>,
@@ -38,8 +38,9 @@ pub struct RaysArgs {
     /// Index n or n+k; without it, water at --wavelength-nm
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
     index: Option<Index>,
-    #[arg(long, default_value_t = 589.3)]
-    wavelength_nm: f64,
+    /// Wavelength of water's index (default 589.3)
+    #[arg(long, conflicts_with = "index")]
+    wavelength_nm: Option<f64>,
     /// Number of chords inside the drop
     #[arg(long, default_value_t = 2)]
     order: u32,
@@ -61,7 +62,8 @@ pub fn run(args: RaysArgs) -> Result<()> {
     let shape = shape(&args)?;
     let index = match args.index {
         Some(Index(index)) => index,
-        None => Medium::Water { temperature: 293.15 }.index(args.wavelength_nm * 1e-9)?,
+        None => Medium::Water { temperature: 293.15 }
+            .index(args.wavelength_nm.unwrap_or(589.3) * 1e-9)?,
     };
     if !(2..=MOST_RAYS).contains(&args.count) {
         let message = format!("--count {}: 2 to {MOST_RAYS} is accepted", args.count);
@@ -110,6 +112,8 @@ fn shape(args: &RaysArgs) -> Result<Shape> {
     if !(args.radius_mm.is_finite() && args.radius_mm > 0.0) {
         return Err(usage(format!("--radius-mm {}: a number above 0 is accepted", args.radius_mm)));
     }
+    let (shape, axis_ratio, model) = (args.shape, args.axis_ratio, args.model.as_deref());
+    ShapeFlags { shape, axis_ratio, model }.check()?;
     let sun = args.sun_elevation_deg.to_radians();
     Ok(match args.shape {
         ShapeKind::Sphere => Shape::sphere(),
@@ -118,7 +122,7 @@ fn shape(args: &RaysArgs) -> Result<Shape> {
             Shape::spheroid(ratio, sun)?
         }
         ShapeKind::Raindrop => {
-            Shape::raindrop(args.radius_mm * 1e-3, raindrop_model(&args.model)?, sun)?
+            Shape::raindrop(args.radius_mm * 1e-3, raindrop_model(args.model.as_deref())?, sun)?
         }
     })
 }

@@ -5,6 +5,7 @@ use super::render_drops::{DropKeys, tables};
 use anyhow::Context;
 use clap::Args;
 use gonio::color::{ColorError, decode_srgb};
+use gonio::phase_table::PhaseTable;
 use gonio::render::RenderError;
 use gonio::render::camera::Camera;
 use gonio::render::sky::{Drops, RainShape, Sky, render};
@@ -138,6 +139,7 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
     sky(&scene, asked.unwrap_or(20.0).to_radians())?;
     camera(&scene, asked.unwrap_or(20.0).to_radians())?;
     let tables = tables(&scene.drops, drop_folder, asked.unwrap_or(20.0), polarised)?;
+    note_on_disc(&tables, scene.sun.disc);
     let elevation = asked.map(f64::to_radians).unwrap_or_else(|| {
         tables
             .iter()
@@ -145,6 +147,7 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
             .find(|h| !h.rotational_symmetry)
             .map_or(20f64.to_radians(), |header| header.sun_elevation)
     });
+    check_sun(elevation, &tables)?;
     let sky = sky(&scene, elevation)?;
     let camera = camera(&scene, elevation)?;
     let drops: Vec<Drops<'_>> =
@@ -152,6 +155,35 @@ pub fn run(args: RenderArgs) -> anyhow::Result<()> {
     let picture = render(&camera, &sky, &drops).map_err(wrong_input)?;
     picture.write_png(&args.output)?;
     Ok(())
+}
+
+/// Say where the sun's disc is in a table already, so that the picture leaves it alone.
+fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) {
+    if tables.iter().any(|(table, _)| table.header.averaging.has_sun_disc()) {
+        let wish = match asked {
+            Some(false) => "; sun.disc = false cannot take it out",
+            _ => " and is not applied again",
+        };
+        eprintln!("note: the sun's disc is in the table already{wish}");
+    }
+}
+
+/// Refuses a sun elsewhere than where the table of a drop that is no sphere has it.
+fn check_sun(elevation: f64, tables: &[(PhaseTable, f64)]) -> anyhow::Result<()> {
+    /// Degrees, as people round them.
+    const ROUNDING: f64 = 0.01;
+    let given = elevation.to_degrees();
+    let suns = tables.iter().map(|(table, _)| &table.header);
+    let bound = suns.filter(|header| !header.rotational_symmetry);
+    let other = bound.map(|header| header.sun_elevation.to_degrees());
+    match other.into_iter().find(|own| (own - given).abs() > ROUNDING) {
+        Some(own) => Err(UsageError(format!(
+            "sun.elevation_deg = {given}: a table of the drops was made for the sun at {own}°; \
+             make one for {given}°, or leave the elevation out"
+        ))
+        .into()),
+        None => Ok(()),
+    }
 }
 
 fn read_scene(path: &Path) -> anyhow::Result<RenderScene> {

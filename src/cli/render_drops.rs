@@ -3,7 +3,9 @@
 use super::UsageError;
 use gonio::lee::{Beats, Sampling, SamplingNeed};
 use gonio::medium::{Medium, MediumSpec};
-use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
+use gonio::phase_table::{
+    Averaging, Axes, Bodies, ERROR_BANDS, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+};
 use gonio::plan::Plan;
 use gonio::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use gonio::series::lorenz_mie::Sphere;
@@ -46,6 +48,31 @@ impl DropKeys {
     pub fn table(path: &Path) -> Self {
         Self { table: Some(path.to_string_lossy().into_owned()), ..Self::default() }
     }
+
+    /// Refuses keys that contradict each other.
+    pub fn check(&self) -> Result<(), UsageError> {
+        let present = [
+            ("shape", self.shape.is_some()),
+            ("radius_mm", self.radius_mm.is_some()),
+            ("medium", self.medium.is_some()),
+            ("size_spread", self.size_spread.is_some()),
+            ("wavelengths", self.wavelengths.is_some()),
+        ];
+        let beside_table = present.iter().find(|(_, there)| self.table.is_some() && *there);
+        if let Some((key, _)) = beside_table {
+            let message =
+                format!("drops.{key} with drops.table: the table says what its drops are");
+            return Err(UsageError(message));
+        }
+        let sphere = self.shape.as_deref().unwrap_or("sphere") == "sphere";
+        match self.wavelengths {
+            Some(count) if sphere => Err(UsageError(format!(
+                "drops.wavelengths = {count}: those of a sphere follow from its size; a key of \
+                 shape = \"raindrop\""
+            ))),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// The tables and numbers of all kinds.
@@ -62,6 +89,7 @@ pub fn tables(
     let mut out = Vec::new();
     for kind in kinds {
         let number = kind.number.unwrap_or(1.0);
+        kind.check()?;
         if let Some(name) = &kind.table {
             out.push((gonio::hdf5::read(&folder.join(name))?, number));
             continue;
@@ -116,6 +144,7 @@ fn sphere(
     polarised: bool,
 ) -> anyhow::Result<PhaseTable> {
     let medium = kind.medium.clone().unwrap_or_default().resolve(folder)?;
+    super::notes::tell(medium.notes());
     let (from, to) = (FROM.to_radians(), PI);
     let sampling = Sampling::new(&SamplingNeed {
         radius,
@@ -164,6 +193,9 @@ fn mie_table(
         shape: "sphere".into(),
         radius,
         sun_elevation: 0.0,
+        bodies: Some(Bodies::sphere(radius)),
+        averaging: Averaging::default(),
+        tolerance: f64::NAN,
         scene_toml: String::new(),
         command_line: String::new(),
     };
@@ -199,12 +231,17 @@ fn slab(
         caustic_order: None,
         scattering_cross_section: q.q_sca * area,
         extinction_cross_section: q.q_ext * area,
+        absorption_cross_section: q.q_abs * area,
+        forward_extinction: None,
         asymmetry: q.asymmetry,
         energy: None,
         sum_before_peak: f64::NAN,
         peak_share: 0.0,
         error_estimate: 1e-10,
         error_by_band: 1e-10,
+        tolerance_met: None,
+        error_by_direction: [1e-10; ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 
@@ -229,6 +266,7 @@ fn raindrop_scene(
     file.table.quantity =
         Some(Choice(if polarised { Quantity::Mueller } else { Quantity::PhaseFunction }));
     let scene = file.validate_in(folder)?;
+    super::notes::tell(scene.medium.notes());
     let round = Plan::new(&scene)?.shape.is_sphere();
     Ok((!round).then_some(scene))
 }

@@ -2,13 +2,17 @@
 
 use super::UsageError;
 use super::scatter_input::{
-    Index, ShapeKind, parse_index, parse_orders, parse_theta, raindrop_model,
+    Index, ShapeFlags, ShapeKind, parse_index, parse_orders, parse_theta, raindrop_model,
 };
 use anyhow::Result;
 use clap::{Args, ValueEnum};
+use gonio::farfield::patches::gaussian_filter;
+use gonio::math::digits::to_digits;
 use gonio::medium::Medium;
 use gonio::optics::AmplitudeMatrix;
-use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, RAY_SIZES, Symmetry, last_order};
+use gonio::plan::{
+    DOUBTFUL_PHASE_SHIFT, Engine, Plan, Symmetry, check_rays, last_order, phase_shift,
+};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::Shape;
@@ -42,7 +46,8 @@ pub struct ScatterArgs {
     method: MethodName,
     #[arg(long, value_enum, default_value = "sphere")]
     shape: ShapeKind,
-    /// Radius of the sphere of equal volume, micrometres
+    /// Radius of the sphere of equal volume, micrometres. Of radius, wavelength and size parameter
+    /// two say the third; given all three, they must agree
     #[arg(long, allow_hyphen_values = true)]
     radius_um: Option<f64>,
     /// Diameter of the sphere of equal volume, millimetres
@@ -60,24 +65,28 @@ pub struct ScatterArgs {
     /// Vertical over horizontal diameter of a spheroid
     #[arg(long, allow_hyphen_values = true)]
     axis_ratio: Option<f64>,
+    /// Sun above the horizon; of no effect on a sphere
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     sun_elevation_deg: f64,
+    /// Azimuth of the light about the sun's rays; of no effect on a sphere
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     azimuth_deg: f64,
     /// Scattering angles in degrees: a comma list of values and from:to:step ranges
     #[arg(long)]
     theta: String,
-    /// A comma list of orders, "diffraction", or "auto"
+    /// A comma list of orders, "diffraction", or "auto"; not for Lorenz–Mie, which has all of them
     #[arg(long, default_value = "auto")]
     orders: String,
-    #[arg(long, value_enum, default_value = "airy")]
-    diffraction: DiffractionName,
-    /// Relative error asked for
+    /// airy: uniform formulas at every bow (default); gaussian: rays whose intensities a filter smooths
+    /// near bows (Sadeghi et al. 2012; phases are those of the rays); none: rays alone
+    #[arg(long, value_enum)]
+    diffraction: Option<DiffractionName>,
+    /// Relative error asked of rays and of the number of Debye terms
     #[arg(long, default_value_t = 0.01)]
     tolerance: f64,
-    /// Raindrop model
-    #[arg(long, default_value = "beard-chuang-1987")]
-    model: String,
+    /// Raindrop model (default: beard-chuang-1987)
+    #[arg(long)]
+    model: Option<String>,
     /// Rays across the silhouette for the patches of `--diffraction none` and `gaussian`
     #[arg(long)]
     rays_across: Option<usize>,
@@ -89,6 +98,8 @@ pub struct ScatterArgs {
 /// What was asked for, checked.
 struct Job {
     size_parameter: f64,
+    /// Metres, where it is known.
+    radius: Option<f64>,
     index: Complex64,
     theta: Vec<f64>,
     azimuth: f64,
@@ -137,17 +148,38 @@ fn positive(name: &str, value: Option<f64>) -> Result<Option<f64>> {
     }
 }
 
-fn job(args: &ScatterArgs) -> Result<Job> {
-    let radius =
-        positive("radius-um", args.radius_um)?
-            .or(positive("diameter-mm", args.diameter_mm)?.map(|d| 500.0 * d));
-    let wavelength = positive("wavelength-nm", args.wavelength_nm)?;
-    let size = positive("size-parameter", args.size_parameter)?;
-    let radius_m = radius.unwrap_or(1.0) * 1e-6;
-    let (size_parameter, wavelength_m) = match (size, wavelength, radius) {
-        (Some(x), Some(w), _) => (x, w * 1e-9),
-        (Some(x), None, _) => (x, TAU * radius_m / x),
-        (None, Some(w), Some(_)) => (TAU * radius_m / (w * 1e-9), w * 1e-9),
+/// Radius and wavelength in metres where they are known, and the size parameter.
+struct Size {
+    radius: Option<f64>,
+    wavelength: Option<f64>,
+    parameter: f64,
+}
+
+/// Rounded by hand to four digits, three numbers still agree.
+const ROUNDING: f64 = 5e-4;
+
+/// Any two of radius, wavelength and size parameter say the third; three must agree.
+fn size(args: &ScatterArgs) -> Result<Size> {
+    let diameter = positive("diameter-mm", args.diameter_mm)?;
+    let radius = positive("radius-um", args.radius_um)?.or(diameter.map(|d| 500.0 * d));
+    let wavelength = positive("wavelength-nm", args.wavelength_nm)?.map(|nm| nm * 1e-9);
+    let parameter = positive("size-parameter", args.size_parameter)?;
+    let radius = radius.map(|um| um * 1e-6);
+    let of = |radius: f64, wavelength: f64| TAU * radius / wavelength;
+    Ok(match (parameter, radius, wavelength) {
+        (Some(x), Some(a), Some(w)) if (of(a, w) / x - 1.0).abs() > ROUNDING => {
+            return Err(usage(format!(
+                "--size-parameter {x} disagrees with a radius of {} µm at {} nm, whose size \
+                 parameter is {:.6}: give two of the three",
+                to_digits(a * 1e6, 9),
+                to_digits(w * 1e9, 9),
+                of(a, w)
+            )));
+        }
+        (Some(x), Some(a), None) => Size { radius, wavelength: Some(TAU * a / x), parameter: x },
+        (Some(x), None, Some(w)) => Size { radius: Some(x * w / TAU), wavelength, parameter: x },
+        (Some(x), ..) => Size { radius, wavelength, parameter: x },
+        (None, Some(a), Some(w)) => Size { radius, wavelength, parameter: of(a, w) },
         _ => {
             return Err(usage(
                 "the particle's size is missing: give --size-parameter, or --radius-um and \
@@ -155,7 +187,42 @@ fn job(args: &ScatterArgs) -> Result<Job> {
                     .into(),
             ));
         }
-    };
+    })
+}
+
+/// Flags that contradict each other; each pair is refused rather than settled.
+fn check_flags(args: &ScatterArgs) -> Result<()> {
+    let series = args.method != MethodName::Rays;
+    let patches = args.diffraction.is_some_and(|diffraction| diffraction != DiffractionName::Airy);
+    let rules = [
+        (
+            args.method == MethodName::Mie && args.orders != "auto",
+            "--orders with --method mie: Lorenz–Mie has all orders at once; debye and rays take a list",
+        ),
+        (
+            series && args.diffraction.is_some(),
+            "--diffraction with an exact series, which has all of it: a flag of --method rays only",
+        ),
+        (
+            series && args.rays_across.is_some(),
+            "--rays-across with an exact series, which has no rays: a flag of --method rays only",
+        ),
+        (
+            !series && !patches && args.rays_across.is_some(),
+            "--rays-across without patches of rays: a flag of --diffraction none and gaussian only",
+        ),
+    ];
+    if let Some((_, message)) = rules.iter().find(|(wrong, _)| *wrong) {
+        return Err(usage((*message).into()));
+    }
+    let flags =
+        ShapeFlags { shape: args.shape, axis_ratio: args.axis_ratio, model: args.model.as_deref() };
+    Ok(flags.check()?)
+}
+
+fn job(args: &ScatterArgs) -> Result<Job> {
+    check_flags(args)?;
+    let size = size(args)?;
     if !(args.tolerance > 0.0 && args.tolerance < 1.0) {
         return Err(usage(format!(
             "--tolerance {}: a number between 0 and 1 is accepted",
@@ -172,12 +239,21 @@ fn job(args: &ScatterArgs) -> Result<Job> {
     }
     let index = match args.index {
         Some(Index(index)) => index,
-        None => Medium::Water { temperature: 293.15 }.index(wavelength_m)?,
+        None => {
+            let wavelength = size.wavelength.ok_or_else(|| {
+                usage(
+                    "the index of water needs --wavelength-nm (or --radius-um); or give --index"
+                        .into(),
+                )
+            })?;
+            Medium::Water { temperature: 293.15 }.index(wavelength)?
+        }
     };
     let (orders, diffraction_term) = parse_orders(&args.orders).map_err(usage)?;
     let theta = parse_theta(&args.theta).map_err(usage)?;
     let azimuth = args.azimuth_deg.to_radians();
-    Ok(Job { size_parameter, index, theta, azimuth, orders, diffraction_term })
+    let (size_parameter, radius) = (size.parameter, size.radius);
+    Ok(Job { size_parameter, radius, index, theta, azimuth, orders, diffraction_term })
 }
 
 fn sphere_only(args: &ScatterArgs) -> Result<()> {
@@ -239,7 +315,7 @@ fn debye(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     })
 }
 
-fn shape(args: &ScatterArgs) -> Result<Shape> {
+fn shape(args: &ScatterArgs, job: &Job) -> Result<Shape> {
     let sun = args.sun_elevation_deg.to_radians();
     Ok(match args.shape {
         ShapeKind::Sphere => Shape::sphere(),
@@ -250,33 +326,26 @@ fn shape(args: &ScatterArgs) -> Result<Shape> {
             Shape::spheroid(ratio, sun).map_err(|e| usage(format!("--axis-ratio: {e}")))?
         }
         ShapeKind::Raindrop => {
-            let radius = args.radius_um.or(args.diameter_mm.map(|d| 500.0 * d)).unwrap_or(1.0);
-            Shape::raindrop(radius * 1e-6, raindrop_model(&args.model)?, sun)
+            let radius = job.radius.ok_or_else(|| {
+                usage(
+                    "a raindrop's shape depends on its size: give --radius-um, or --wavelength-nm"
+                        .into(),
+                )
+            })?;
+            Shape::raindrop(radius, raindrop_model(args.model.as_deref())?, sun)
                 .map_err(|e| usage(e.to_string()))?
         }
     })
 }
 
 fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
-    if job.index.im > LARGEST_K_OVER_N * job.index.re {
-        return Err(usage(format!(
-            "--index {}+{}: rays need k/n below {LARGEST_K_OVER_N}; use --method mie for a sphere",
-            job.index.re, job.index.im
-        )));
-    }
-    let (smallest, largest) = RAY_SIZES;
-    if !(smallest..=largest).contains(&job.size_parameter) {
-        return Err(usage(format!(
-            "size parameter {:e}: rays are accepted from {smallest} to {largest:e}; use --method mie \
-             for a small sphere",
-            job.size_parameter
-        )));
-    }
+    check_rays(job.index, job.size_parameter, "").map_err(|error| usage(error.to_string()))?;
     if job.diffraction_term {
         return Err(usage("--orders diffraction: a term of --method debye only".into()));
     }
-    let shape = shape(args)?;
-    let engine = match args.diffraction {
+    let shape = shape(args, job)?;
+    let diffraction_name = args.diffraction.unwrap_or(DiffractionName::Airy);
+    let engine = match diffraction_name {
         DiffractionName::Airy => Engine::Meridians,
         DiffractionName::None | DiffractionName::Gaussian => Engine::Patches,
     };
@@ -285,9 +354,11 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         .orders
         .clone()
         .unwrap_or_else(|| (0..=last_order(job.index.re, args.tolerance)).collect());
-    let diffraction = auto && args.diffraction != DiffractionName::None;
+    let diffraction = auto && diffraction_name != DiffractionName::None;
     let plan =
         Plan::direct(shape, 1.0, engine, orders, diffraction, args.tolerance, args.rays_across);
+    let filter = (diffraction_name == DiffractionName::Gaussian)
+        .then(|| gaussian_filter::standard_deviation(job.radius.unwrap_or(1e-6)));
     // The backward direction rides along: rays are traced once.
     let asked = radians(job).into_iter().map(|theta| (theta, job.azimuth));
     let directions: Vec<(f64, f64)> = asked.chain([(PI, job.azimuth)]).collect();
@@ -298,7 +369,19 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         job.size_parameter,
         &directions,
         fates.absorbed,
+        filter,
     );
+    let shift = phase_shift(job.index, job.size_parameter);
+    if engine == Engine::Meridians && shift < DOUBTFUL_PHASE_SHIFT {
+        let worth = simulate::worth_of_rays(&plan, job.index, job.size_parameter)?;
+        eprintln!(
+            "note: the phase shift through the particle, 2x|n - 1| = {shift:.1}, is small for rays \
+             (below {DOUBTFUL_PHASE_SHIFT}): intensities from 10 to 170 degrees are {:.0} % off, \
+             weighted by intensity, and {:.0} % on average over angles",
+            100.0 * worth.weighted,
+            100.0 * worth.by_band
+        );
+    }
     let back = amplitudes.pop().unwrap_or_default();
     let shadow = plan.shape.silhouette().area() / PI;
     let (q_ext, q_abs) = (sections.extinction / PI, sections.absorption / PI);

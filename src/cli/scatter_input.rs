@@ -17,8 +17,36 @@ pub enum ShapeKind {
     Spheroid,
 }
 
-/// The raindrop model of a name.
-pub fn raindrop_model(name: &str) -> Result<RaindropModel, UsageError> {
+/// Flags that go with one shape only.
+pub struct ShapeFlags<'a> {
+    pub shape: ShapeKind,
+    pub axis_ratio: Option<f64>,
+    pub model: Option<&'a str>,
+}
+
+impl ShapeFlags<'_> {
+    /// Refuses those of another shape.
+    pub fn check(&self) -> Result<(), UsageError> {
+        let shape = match self.shape {
+            ShapeKind::Sphere => "sphere",
+            ShapeKind::Spheroid => "spheroid",
+            ShapeKind::Raindrop => "raindrop",
+        };
+        match (self.axis_ratio, self.model) {
+            (Some(ratio), _) if self.shape != ShapeKind::Spheroid => Err(UsageError(format!(
+                "--axis-ratio {ratio}: only a spheroid has an axis ratio; the shape is {shape}"
+            ))),
+            (_, Some(model)) if self.shape != ShapeKind::Raindrop => Err(UsageError(format!(
+                "--model {model}: only a raindrop has a shape model; the shape is {shape}"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The raindrop model of a name; without one, that of scenes.
+pub fn raindrop_model(name: Option<&str>) -> Result<RaindropModel, UsageError> {
+    let Some(name) = name else { return Ok(RaindropModel::BeardChuang1987) };
     let known = RaindropModel::NAMES;
     known.iter().find(|(word, _)| *word == name).map(|(_, model)| *model).ok_or_else(|| {
         let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
@@ -30,29 +58,9 @@ pub fn raindrop_model(name: &str) -> Result<RaindropModel, UsageError> {
 #[derive(Clone, Copy, Debug)]
 pub struct Index(pub Complex64);
 
-/// `1.333` or `1.333+0.001` (n+ik).
+/// `1.333` or `1.333+0.001` (n+ik), as in [`gonio::medium::parse_index`].
 pub fn parse_index(text: &str) -> Result<Index, String> {
-    let accepted = "n or n+k with n > 0 and k ≥ 0 (k > 0 absorbs) is accepted";
-    let trimmed = text.trim().trim_end_matches('i');
-    // a sign after the first character, unless it belongs to an exponent
-    let split = trimmed
-        .char_indices()
-        .skip(1)
-        .find(|&(i, c)| (c == '+' || c == '-') && !trimmed[..i].ends_with(['e', 'E']));
-    let (n, k) = match split {
-        Some((i, _)) => (&trimmed[..i], &trimmed[i..]),
-        None => (trimmed, "0"),
-    };
-    let number = |word: &str| word.parse::<f64>().map_err(|_| format!("{text}: {accepted}"));
-    let (n, k) = (number(n)?, number(k)?);
-    if !(n.is_finite() && n > 0.0 && k.is_finite() && k >= 0.0) {
-        return Err(format!("{text}: {accepted}"));
-    }
-    let index = Complex64::new(n, k);
-    if !gonio::medium::is_plausible(index) {
-        return Err(format!("{text}: {} are accepted", gonio::medium::PLAUSIBLE_INDEX));
-    }
-    Ok(Index(index))
+    gonio::medium::parse_index(text).map(Index).map_err(|error| error.to_string())
 }
 
 /// Comma list of values and `from:to:step` ranges (both ends in), degrees, order kept.
@@ -117,9 +125,6 @@ mod tests {
 
     #[test]
     fn words_of_the_contract() {
-        assert_eq!(parse_index("1.3314+0.001").unwrap().0, Complex64::new(1.3314, 0.001));
-        assert_eq!(parse_index("1.3+1e-5").unwrap().0, Complex64::new(1.3, 1e-5));
-        assert!(parse_index("1.3-0.1").is_err() && parse_index("nan").is_err());
         let theta = parse_theta("10,120:150:0.1,0").unwrap();
         assert_eq!((theta.len(), theta[0], theta[302]), (303, 10.0, 0.0));
         assert!((theta[301] - 150.0).abs() < 1e-9);

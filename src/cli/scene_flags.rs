@@ -60,6 +60,9 @@ pub struct ParticleFlags {
     /// Temperature of the medium
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     pub temperature_c: Option<f64>,
+    /// Density of the medium, for whatever is told per mass (default: the library's)
+    #[arg(long, value_name = "KG_M3", allow_negative_numbers = true)]
+    pub density_kg_m3: Option<f64>,
 }
 
 /// What shines on it.
@@ -123,6 +126,9 @@ pub struct ModelFlags {
     /// Rays across the silhouette (default: chosen from the tolerance)
     #[arg(long, value_name = "N")]
     pub rays_across: Option<u32>,
+    /// Have a mean that misses the tolerance marked in the table, in place of a failure
+    #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "true|false")]
+    pub allow_unmet_tolerance: Option<bool>,
 }
 
 /// Parser of a word from a closed set; `--help` lists the set.
@@ -131,20 +137,10 @@ fn word<T: Named + Send + Sync>() -> impl TypedValueParser<Value = Choice<T>> {
         .try_map(|word| T::from_name(&word).map(Choice))
 }
 
-/// `1.333`, `1.333+0.001`
+/// `1.333`, `1.333+0.001`, as in [`gonio::medium::parse_index`].
 pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
-    let accepted = || format!("\"{text}\" is not an index; accepted: N or N+K, as in 1.333+0.001");
-    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| accepted());
-    // The plus sign of an exponent, as in 1e+0, does not separate the parts.
-    let separator = text
-        .char_indices()
-        .skip(1)
-        .find(|(i, c)| *c == '+' && !text[..*i].ends_with(['e', 'E']))
-        .map(|(i, _)| i);
-    match separator {
-        Some(i) => Ok([number(&text[..i])?, number(&text[i + 1..])?]),
-        None => Ok([number(text)?, 0.0]),
-    }
+    let index = gonio::medium::parse_index(text).map_err(|error| error.to_string())?;
+    Ok([index.re, index.im])
 }
 
 /// `water`, `glass.yml`, `{ solute = … }`
@@ -167,6 +163,7 @@ impl ParticleFlags {
             model: self.model,
             temperature_c: self.temperature_c,
             medium,
+            density_kg_m3: self.density_kg_m3,
         }
     }
 }
@@ -197,31 +194,18 @@ impl SceneFlags {
                 orders: model.orders,
                 tolerance: model.tolerance,
                 rays_across: model.rays_across,
+                allow_unmet_tolerance: model.allow_unmet_tolerance,
             },
         }
     }
 
     /// The scene of a file, or the built-in one, with the flags laid over it.
     pub fn scene(&self, path: Option<&Path>) -> Result<Scene, SceneError> {
-        match path {
+        let scene = match path {
             Some(path) => Scene::load(path, &self.keys()),
             None => Scene::built_in(&self.keys()),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn indices_as_on_the_command_line() {
-        assert_eq!(parse_index("1.333"), Ok([1.333, 0.0]));
-        assert_eq!(parse_index("1.333+0.001"), Ok([1.333, 0.001]));
-        assert_eq!(parse_index("1.3e+0+1e-3"), Ok([1.3, 0.001]));
-        assert_eq!(parse_index("1.5+-2"), Ok([1.5, -2.0]));
-        for bad in ["", "+", "a", "1.3+", "1.3i", "1.3+0.1i"] {
-            assert!(parse_index(bad).is_err(), "{bad}");
-        }
+        }?;
+        super::notes::tell(scene.medium.notes());
+        Ok(scene)
     }
 }

@@ -49,6 +49,8 @@ struct Summary {
     /// Largest over the wavelengths, both.
     error_estimate: f64,
     error_by_band: f64,
+    /// Wavelengths at which the error asked for is not met.
+    missed: usize,
     /// Largest over the wavelengths; `None` where the method has no energy budget.
     energy_residual: Option<f64>,
 }
@@ -112,6 +114,7 @@ impl Summary {
     fn add(&mut self, slab: &Slab) {
         self.error_estimate = self.error_estimate.max(slab.error_estimate);
         self.error_by_band = self.error_by_band.max(slab.error_by_band);
+        self.missed += usize::from(slab.tolerance_met == Some(false));
         if let Some(energy) = &slab.energy {
             let residual = self.energy_residual.unwrap_or(0.0).max(energy.residual.abs());
             self.energy_residual = Some(residual);
@@ -125,6 +128,14 @@ fn report(
     preview: Option<&Path>,
     summary: &Summary,
 ) -> anyhow::Result<()> {
+    if summary.missed > 0 {
+        eprintln!(
+            "note: the error asked for, {}, is not met at {} of {} wavelengths; the table says so",
+            scene.tolerance,
+            summary.missed,
+            scene.wavelengths.len()
+        );
+    }
     let bytes = std::fs::metadata(&args.output)?.len();
     if args.json {
         let report = serde_json::json!({
@@ -135,6 +146,8 @@ fn report(
             "error_estimate": summary.error_estimate,
             "error_estimate_by_band": summary.error_by_band,
             "energy_residual": summary.energy_residual,
+            "tolerance": scene.tolerance,
+            "wavelengths_beyond_tolerance": summary.missed,
         });
         println!("{report}");
         return Ok(());

@@ -34,6 +34,8 @@ pub struct Averaged {
     pub cap: f64,
     /// The table has the whole Mueller matrix.
     pub polarised: bool,
+    /// Spheres: elements 22 and 44 are 11 and 33.
+    pub spherical: bool,
 }
 
 /// Average a table over azimuth and cut the forward peak below the angle `cap` (radians).
@@ -52,7 +54,28 @@ pub fn average(table: &PhaseTable, cap: f64) -> Result<Averaged, ExportError> {
     }
     let polarised = table.header.quantity == Quantity::Mueller;
     let curves = table.slabs.iter().map(|slab| curve(slab, axes, cap, polarised)).collect();
-    Ok(Averaged { theta: axes.theta.clone(), curves, cap, polarised })
+    let spherical = table.header.shape == "sphere";
+    Ok(Averaged { theta: axes.theta.clone(), curves, cap, polarised, spherical })
+}
+
+/// Largest size, relative to element 11, of what the six elements of [`ELEMENTS`] cannot hold of the
+/// mean over azimuth: 21 - 12, 43 + 34 and the eight that vanish by symmetry.
+pub(super) fn average_departure(table: &PhaseTable) -> f64 {
+    const BLOCKS: [usize; 8] = [2, 3, 6, 7, 8, 9, 12, 13];
+    let axes = &table.header.axes;
+    let mut most = 0.0f64;
+    for slab in &table.slabs {
+        let element = |e: usize| slab.azimuth_mean(axes, e);
+        let (p11, p12, p21) = (element(0), element(1), element(4));
+        let (p34, p43) = (element(11), element(14));
+        let others = BLOCKS.map(element);
+        for (i, whole) in p11.iter().enumerate().filter(|(_, whole)| **whole > 0.0) {
+            let rest = others.iter().map(|values| values[i].abs()).fold(0.0, f64::max);
+            let odd = (p21[i] - p12[i]).abs().max((p34[i] + p43[i]).abs());
+            most = most.max(odd.max(rest) / whole);
+        }
+    }
+    most
 }
 
 fn curve(slab: &Slab, axes: &Axes, cap: f64, polarised: bool) -> Curve {
@@ -100,6 +123,18 @@ fn integral(axes: &Axes, values: &[f64], weight: impl Fn(f64) -> f64) -> f64 {
 }
 
 impl Averaged {
+    /// The elements that the table has, by name and place in [`ELEMENTS`], in the order in which
+    /// libRadtran and Eradiate count them: those of spheres first, then 22 and 44.
+    pub(super) fn elements(&self) -> &'static [(&'static str, usize)] {
+        const ORDER: [(&str, usize); 6] =
+            [("11", 0), ("12", 1), ("33", 3), ("34", 4), ("22", 2), ("44", 5)];
+        match (self.polarised, self.spherical) {
+            (false, _) => &ORDER[..1],
+            (true, true) => &ORDER[..4],
+            (true, false) => &ORDER,
+        }
+    }
+
     /// P11 of a curve at any θ (radians), linear between the samples.
     pub(super) fn p11(&self, curve: &Curve, theta: f64) -> f64 {
         let values = &curve.elements[0];

@@ -1,17 +1,21 @@
 //! Comma-separated values: the mean over azimuth, or every sample.
 
 use super::average::{Averaged, ELEMENTS};
+use super::notes::{notes, shape_note};
 use crate::math::digits::to_digits;
 use crate::phase_table::{PhaseTable, Quantity};
 use std::fmt::Write;
 
 /// One line per wavelength and scattering angle, mean over azimuth.
-pub fn averaged(averaged: &Averaged) -> String {
+pub fn averaged(table: &PhaseTable, averaged: &Averaged) -> String {
     let mut text = format!(
-        "# mean over azimuth; below {} degree the value there; peak_share: power cut off\n\
-         wavelength_nm,theta_deg,peak_share",
+        "# mean over azimuth; below {} degree the value there; peak_share: power cut off\n",
         averaged.cap.to_degrees()
     );
+    for note in notes(table).into_iter().chain(shape_note(table, averaged)) {
+        let _ = writeln!(text, "# {note}");
+    }
+    text.push_str("wavelength_nm,theta_deg,peak_share");
     let used = if averaged.polarised { ELEMENTS.len() } else { 1 };
     for (name, _) in &ELEMENTS[..used] {
         let _ = write!(text, ",p{name}_per_sr");
@@ -33,7 +37,11 @@ pub fn averaged(averaged: &Averaged) -> String {
 /// One line per wavelength, scattering angle and azimuth.
 pub fn every_sample(table: &PhaseTable) -> String {
     let axes = &table.header.axes;
-    let mut text = "wavelength_nm,theta_deg,azimuth_deg".to_string();
+    let mut text = String::new();
+    for note in notes(table) {
+        let _ = writeln!(text, "# {note}");
+    }
+    text.push_str("wavelength_nm,theta_deg,azimuth_deg");
     match table.header.quantity {
         Quantity::PhaseFunction => text.push_str(",p11_per_sr"),
         Quantity::Mueller => (0..16).for_each(|e| {

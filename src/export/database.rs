@@ -1,17 +1,9 @@
 //! What the netCDF databases of radiative transfer programs have in common.
 
 use super::average::{Averaged, Curve};
+use super::notes::{density_note, notes, shape_note};
 use crate::hdf5::{NetcdfValues, NetcdfVariable};
 use crate::phase_table::PhaseTable;
-
-/// The elements that a sphere has, by name and place in [`super::average::ELEMENTS`]: all that
-/// Eradiate and libRadtran know.
-const SPHERE: [(&str, usize); 4] = [("11", 0), ("12", 1), ("33", 3), ("34", 4)];
-
-/// Those of the elements of a sphere that a table has.
-pub(super) fn sphere_elements(averaged: &Averaged) -> &'static [(&'static str, usize)] {
-    if averaged.polarised { &SPHERE } else { &SPHERE[..1] }
-}
 
 /// A variable with text attributes.
 pub(super) fn variable(
@@ -50,6 +42,18 @@ pub(super) fn attributes(
         ("forward_peak".to_string(), peak_words(averaged)),
         ("polarised".to_string(), if averaged.polarised { "yes" } else { "no" }.to_string()),
     ];
+    let bodies = table.header.bodies.as_ref();
+    if let Some(density) = bodies.and_then(|bodies| bodies.density) {
+        attributes.push(("density_kg_m3".to_string(), density.to_string()));
+    }
+    let told: Vec<String> = notes(table)
+        .into_iter()
+        .chain(density_note(table))
+        .chain(shape_note(table, averaged))
+        .collect();
+    if !told.is_empty() {
+        attributes.push(("notes".to_string(), told.join(". ")));
+    }
     attributes.extend(more.iter().map(|(name, text)| (name.to_string(), text.to_string())));
     attributes
 }

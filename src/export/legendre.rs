@@ -142,7 +142,8 @@ mod tests {
             extinction_cross_section: 1.0,
             asymmetry: 0.0,
         };
-        let averaged = Averaged { theta, curves: Vec::new(), cap: 0.0, polarised: true };
+        let averaged =
+            Averaged { theta, curves: Vec::new(), cap: 0.0, polarised: true, spherical: true };
         (averaged, curve)
     }
 

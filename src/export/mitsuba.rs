@@ -7,6 +7,8 @@
 //! angle between two directions), at every wavelength: colours come out.
 
 use super::average::Averaged;
+use super::notes::{notes, shape_note};
+use crate::phase_table::PhaseTable;
 
 /// Samples that a cell's mean is taken over.
 const PER_CELL: usize = 32;
@@ -37,12 +39,15 @@ pub fn spectral_table(averaged: &Averaged) -> String {
 /// `tabphase.txt`: per wavelength a line `wavelength_nm: v1, v2, …` with `count` values uniform in
 /// cos θ from −1 to +1, each the mean over its cell, so that the sum keeps its power where the curve
 /// is narrower than the grid.
-pub fn tabphase(averaged: &Averaged, count: usize) -> String {
+pub fn tabphase(table: &PhaseTable, averaged: &Averaged, count: usize) -> String {
     let count = count.max(2);
     let mut text = format!(
         "# forward peak cut below {} degree; grid uniform in cos(theta) from -1 to 1\n",
         averaged.cap.to_degrees()
     );
+    for note in notes(table).into_iter().chain(shape_note(table, averaged)) {
+        text.push_str(&format!("# {note}\n"));
+    }
     for curve in &averaged.curves {
         let step = 2.0 / (count - 1) as f64;
         let values: Vec<String> = (0..count)

@@ -4,6 +4,11 @@
 //! peak of a drop is far narrower than their grids and would need thousands of Legendre moments;
 //! so it is cut at an angle (`--cap-deg`, recorded), what was cut counts as unscattered, and its
 //! share is written into the file.
+//!
+//! Particles that are no spheres have six elements in that mean (11, 12, 22, 33, 34, 44): Eradiate,
+//! libRadtran, sasktran2 and CSV take all of them. Mitsuba's `tabphase` and plugin, the OpenEXR map and the
+//! colour strip take unpolarised light, element 11 alone; the map and the strip and the full CSV keep the
+//! azimuth. [`notes`] are what a user is told beside: an error that was not met, what was averaged over.
 
 pub mod average;
 mod colours;
@@ -14,7 +19,9 @@ pub mod exr;
 mod legendre;
 pub mod libradtran;
 pub mod mitsuba;
+pub mod notes;
 pub mod sasktran2;
+pub mod size_grid;
 #[cfg(feature = "pictures")]
 pub mod strip;
 

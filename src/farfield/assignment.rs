@@ -127,6 +127,7 @@ struct Judge {
     thresholds: Thresholds,
     size_parameter: f64,
     rotational: bool,
+    deformed: bool,
     /// Caustic disorder per order, lessened by the body's symmetry.
     deformation: f64,
 }
@@ -134,12 +135,26 @@ struct Judge {
 impl Assignment {
     /// Decide for some orders, ascending.
     pub fn new(tracer: &Tracer, orders: &[u32], size_parameter: f64, by: &Thresholds) -> Self {
+        let deformed = !tracer.shape().rotational_symmetry();
+        Self::as_if(deformed, tracer, orders, size_parameter, by)
+    }
+
+    /// The same; `deformed` says whether the particle counts as one that small sizes serve by partial
+    /// waves: a sphere may stand for a deformed one.
+    pub(crate) fn as_if(
+        deformed: bool,
+        tracer: &Tracer,
+        orders: &[u32],
+        size_parameter: f64,
+        by: &Thresholds,
+    ) -> Self {
         let shape = tracer.shape();
         let lessened = if shape.mirror_symmetry() { by.of_mirror_symmetry } else { 1.0 };
         let judge = Judge {
             thresholds: *by,
             size_parameter,
             rotational: shape.rotational_symmetry(),
+            deformed,
             deformation: caustic_disorder(tracer, 1) / lessened,
         };
         let entries = orders.iter().flat_map(|&order| judge.first(order)).collect();
@@ -196,7 +211,7 @@ impl Assignment {
 impl Judge {
     fn first(&self, order: u32) -> Vec<Assigned> {
         let limit = self.thresholds.partial_waves_below;
-        if order == 0 || self.rotational || self.size_parameter >= limit {
+        if order == 0 || !self.deformed || self.size_parameter >= limit {
             return self.by_disorder(order);
         }
         let reason = format!(

@@ -1,65 +1,101 @@
 //! How far a far field may be from the truth, as the method itself can tell.
 //!
-//! Four things are known: what interpolation costs, by tracing planes half-way between those of the
-//! set and with twice the knots; the power that is still inside after the last order; how far beams and
-//! patches are from exact series; and the next terms of the uniform formulas, of the order of `x^{-2/3}`
-//! (a wave zone). Waves that are left out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on
-//! average over their phase.
+//! What the method is worth is measured on the sphere of equal volume ([`super::sphere_check`]). Of other
+//! shapes two things are added: what interpolation over azimuth costs, by tracing meridians half-way
+//! between those of the set and with twice the knots; and how far beams and patches are from exact
+//! series. Waves that are wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their
+//! phase.
 
+use super::direction::Direction;
 use super::far_field::{FarField, Source};
+use super::sphere_check::{SAMPLES, samples, spread};
 use crate::farfield::azimuth::plane_set::PlaneSet;
+use crate::phase_table::ERROR_BANDS;
 use crate::trace::Tracer;
-use std::f64::consts::PI;
 
-/// Scattering angles at which it is looked for, and the bands over which each is averaged: many
-/// fringes, of which the mean square counts.
-const SAMPLES: usize = 400;
-const BANDS: usize = 40;
-/// The angles looked at, radians: without the forward peak and its mirror image.
-const FROM: f64 = PI / 18.0;
-const TO: f64 = PI - FROM;
+/// Bands from 10° to 170° count in the means: without the forward peak and its mirror image.
+const COUNTED: std::ops::Range<usize> = 3..43;
 
-/// Relative errors of the intensity from 10° to 170°.
+/// Relative errors of the intensity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorEstimate {
-    /// Root of the sum of squared errors over that of squared intensities.
+    /// Root of the sum of squared errors over that of squared intensities, 10° to 170°.
     pub weighted: f64,
-    /// Root mean square over bands of 4°, each relative to its own intensity.
+    /// Root mean square over bands of 4° from 10° to 170°, each relative to its own intensity.
     pub by_band: f64,
+    /// Of each band, about the angles of [`crate::phase_table::error_theta`].
+    pub by_direction: [f64; ERROR_BANDS],
+}
+
+impl ErrorEstimate {
+    /// Nothing is known.
+    pub const UNKNOWN: Self =
+        Self { weighted: f64::NAN, by_band: f64::NAN, by_direction: [f64::NAN; ERROR_BANDS] };
+
+    /// From squared relative errors and summed squared intensities of the bands.
+    fn of_bands(squares: &[f64; ERROR_BANDS], intensities: &[f64; ERROR_BANDS]) -> Self {
+        let (mut weighted, mut total, mut relative) = (0.0, 0.0, 0.0);
+        for band in COUNTED {
+            weighted += squares[band] * intensities[band];
+            total += intensities[band];
+            relative += squares[band].min(1.0);
+        }
+        Self {
+            weighted: (weighted / total).sqrt(),
+            by_band: (relative / COUNTED.len() as f64).sqrt(),
+            by_direction: squares.map(f64::sqrt),
+        }
+    }
 }
 
 impl FarField<'_> {
-    /// The method's own estimate of its error. `inside` is the power still inside after the last
-    /// order, per power on the silhouette. `None` for patches alone, whose error is not known.
-    pub fn error_estimate(&self, tracer: &Tracer, inside: f64) -> Option<ErrorEstimate> {
-        let Source::Planes(planes, fallback) = &self.source else { return None };
-        let x = self.size_parameter;
-        // steps of an irrational ratio, so that no sample keeps to the knots
-        let place = |k: usize| FROM + (TO - FROM) * (k as f64 * 0.618_033_988_749_895).fract();
-        let mut theta: Vec<f64> = (0..SAMPLES).map(place).collect();
-        theta.sort_by(f64::total_cmp);
+    /// The method's own estimate of its error, from the squared relative errors that it has on the
+    /// sphere of equal volume; `interference` says how a table adds up its patches.
+    pub fn error_estimate(
+        &self,
+        tracer: &Tracer,
+        sphere: &[f64; ERROR_BANDS],
+        interference: bool,
+    ) -> ErrorEstimate {
+        let theta = samples();
+        let sphere_squares = if tracer.shape().is_sphere() {
+            *sphere
+        } else {
+            spread(sphere, self.silhouette().deformation())
+        };
+        let Source::Planes(planes, fallback) = &self.source else {
+            let found = self.patch_intensities(&theta, PATCH_AZIMUTH, true, interference, None);
+            return ErrorEstimate::of_bands(&sphere_squares, &band_squares(&found));
+        };
         let azimuth = planes.checked_azimuth;
-        let missed = planes.missed(tracer, &theta, azimuth);
-        let (waves, doubted) = fallback.doubted(&theta, azimuth);
-        let rays = planes.columns(&theta, &[azimuth]).swap_remove(0);
-        let left_out = inside * self.silhouette().area() * x * x / (4.0 * PI);
-        let next_terms = x.powf(-4.0 / 3.0);
-        let (mut squares, mut intensities, mut relative) = (0.0, 0.0, 0.0);
-        for band in 0..BANDS {
-            let samples = band * SAMPLES / BANDS..(band + 1) * SAMPLES / BANDS;
-            let (mut wrong, mut all) = (0.0, 0.0);
-            for i in samples {
-                wrong += missed[i] + left_out + doubted[i];
-                all += (rays[i] + waves[i]).s11();
-            }
-            let square = (2.0 * wrong / all).min(1.0) + next_terms;
-            relative += square;
-            squares += square * all * all;
-            intensities += all * all;
+        let (waves, mut wrong) = fallback.doubted(&theta, azimuth);
+        if !tracer.shape().is_sphere() {
+            wrong.iter_mut().zip(planes.missed(tracer, &theta, azimuth)).for_each(|(w, m)| *w += m);
         }
-        let (weighted, by_band) = (squares / intensities, relative / BANDS as f64);
-        Some(ErrorEstimate { weighted: weighted.sqrt(), by_band: by_band.sqrt() })
+        let rays = planes.columns(&theta, &[azimuth]).swap_remove(0);
+        let forward = self.forward_wave();
+        let found: Vec<f64> = (0..theta.len())
+            .map(|i| {
+                let ahead = forward.beside_planes(&Direction::new(theta[i], azimuth));
+                (rays[i] + waves[i] + ahead).s11()
+            })
+            .collect();
+        let squares = std::array::from_fn(|band| {
+            let sum = |v: &[f64]| v[band * SAMPLES..(band + 1) * SAMPLES].iter().sum::<f64>();
+            sphere_squares[band] + (2.0 * sum(&wrong) / sum(&found)).min(1.0)
+        });
+        ErrorEstimate::of_bands(&squares, &band_squares(&found))
     }
+}
+
+/// An azimuth off the spokes of patches.
+const PATCH_AZIMUTH: f64 = 1.0;
+
+/// Sums of squared intensities by band.
+fn band_squares(found: &[f64]) -> [f64; ERROR_BANDS] {
+    std::array::from_fn(|band| {
+        found[band * SAMPLES..(band + 1) * SAMPLES].iter().map(|s| s * s).sum()
+    })
 }
 
 impl PlaneSet {
@@ -72,5 +108,20 @@ impl PlaneSet {
             }
         }
         missed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bright_bands_count_in_one_mean_and_all_alike_in_the_other() {
+        let (mut squares, mut intensities) = ([0.01; ERROR_BANDS], [1e-6; ERROR_BANDS]);
+        (squares[5], intensities[5]) = (0.25, 1e3);
+        let estimate = ErrorEstimate::of_bands(&squares, &intensities);
+        assert!((estimate.weighted - 0.5).abs() < 1e-6);
+        assert!((estimate.by_band - (0.016f64).sqrt()).abs() < 1e-12);
+        assert_eq!(estimate.by_direction[5], 0.5);
     }
 }

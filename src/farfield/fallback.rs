@@ -48,7 +48,8 @@ impl<'a> FallbackField<'a> {
             method,
             doubt: assignment.error_of(of),
         };
-        let of_waves = |waves| part(Method::PartialWaves(waves), assignment::Method::PartialWaves);
+        // theirs is measured on the sphere of equal volume
+        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt: 0.0 };
         let mut parts: Vec<Part<'a>> = waves.map(of_waves).into_iter().collect();
         let by_patches = assignment.orders_of(assignment::Method::Patches);
         if !by_patches.is_empty() {

@@ -10,11 +10,12 @@ use super::forward::wave::ForwardWave;
 use super::partial_waves::PartialWaves;
 use super::patches::collecting_sphere::CollectingSphere;
 use super::patches::interference::{Interference, PathInterpolation};
-use super::patches::sheets;
+use super::patches::{gaussian_filter, sheets};
 use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
 use crate::trace::Tracer;
+use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
 /// The far field of one wavelength, ready to be asked for columns or single directions.
@@ -115,13 +116,72 @@ impl<'a> FarField<'a> {
         &self.silhouette
     }
 
-    /// Amplitudes straight forward of rays that a plane stands for and of the edge wave, where
-    /// diffraction and external reflection are joined.
+    /// The whole amplitude straight forward: rays of all orders and what diffraction adds. `None` for
+    /// patches alone, whose rays of focused rings have no amplitude on the axis.
+    ///
+    /// `S1 + S2` there is a trace, the same in the plane of every azimuth: that of a traced one is taken.
     pub fn straight_forward(&self) -> Option<AmplitudeMatrix> {
         let Source::Planes(planes, _) = &self.source else { return None };
-        planes.edge()?;
-        let rays = planes.columns(&[0.0], &[0.0]).swap_remove(0)[0];
-        Some(rays + self.forward_wave().peak(&Direction::new(0.0, 0.0)))
+        Some(self.scatter(&[(0.0, planes.checked_azimuth)], true)[0])
+    }
+
+    /// `S11` at scattering angles (ascending) of one azimuth in [0, π] as a table of patches has it:
+    /// with or without forward diffraction and interference, filtered near bows.
+    pub fn patch_intensities(
+        &self,
+        theta: &[f64],
+        phi: f64,
+        diffraction: bool,
+        interference: bool,
+        filter: Option<f64>,
+    ) -> Vec<f64> {
+        let column = self.columns(theta, &[phi], !interference).swap_remove(0);
+        let wave = self.forward_wave();
+        let intensity = |(i, &t): (usize, &f64)| {
+            let ahead = wave.beside_planes(&Direction::new(t, phi));
+            let ahead = if diffraction { ahead } else { AmplitudeMatrix::default() };
+            match column.incoherent.get(i) {
+                Some(mueller) => mueller[0][0] + ahead.s11(),
+                None => (column.amplitude[i] + ahead).s11(),
+            }
+        };
+        let plain: Vec<f64> = theta.iter().enumerate().map(intensity).collect();
+        let Some(sigma) = filter else { return plain };
+        let bows = gaussian_filter::bows(theta, &column.rays);
+        gaussian_filter::apply(theta, &plain, &bows, sigma)
+    }
+
+    /// Amplitudes in single directions, scaled to the intensities that the Gaussian filter leaves near
+    /// bows; where no ray arrives its light is unpolarised.
+    pub fn scatter_filtered(
+        &self,
+        directions: &[(f64, f64)],
+        diffraction: bool,
+        sigma: f64,
+    ) -> Vec<AmplitudeMatrix> {
+        let step = sigma / FILTER_SAMPLES;
+        let grid: Vec<f64> = (0..=(PI / step) as usize).map(|k| k as f64 * step).collect();
+        let mut amplitudes = self.scatter(directions, diffraction);
+        let folded = |phi: f64| {
+            let turned = phi.rem_euclid(TAU);
+            turned.min(TAU - turned)
+        };
+        let mut order: Vec<usize> = (0..directions.len()).collect();
+        let azimuth = |&i: &usize| folded(directions[i].1);
+        order.sort_by(|a, b| azimuth(a).total_cmp(&azimuth(b)));
+        for group in order.chunk_by(|a, b| azimuth(a) == azimuth(b)) {
+            let mut theta = grid.clone();
+            theta.extend(group.iter().map(|&i| directions[i].0));
+            theta.sort_by(f64::total_cmp);
+            theta.dedup();
+            let phi = azimuth(&group[0]);
+            let smooth = self.patch_intensities(&theta, phi, diffraction, true, Some(sigma));
+            for &i in group {
+                let place = theta.partition_point(|&t| t < directions[i].0);
+                amplitudes[i] = scaled_to(amplitudes[i], smooth[place]);
+            }
+        }
+        amplitudes
     }
 
     /// All scattering angles at each of some azimuths in [0, π], without forward diffraction.
@@ -167,6 +227,19 @@ impl<'a> FarField<'a> {
         }
         amplitudes
     }
+}
+
+/// Samples per standard deviation of the Gaussian filter.
+const FILTER_SAMPLES: f64 = 6.0;
+
+/// An amplitude scaled to an intensity; unpolarised light where there was none.
+fn scaled_to(amplitude: AmplitudeMatrix, intensity: f64) -> AmplitudeMatrix {
+    let size = amplitude.s11();
+    if size > 0.0 {
+        return amplitude * Complex64::from((intensity / size).sqrt());
+    }
+    let s = Complex64::from(intensity.max(0.0).sqrt());
+    AmplitudeMatrix { s1: s, s2: s, ..Default::default() }
 }
 
 /// A column collected patch by patch.

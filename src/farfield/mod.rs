@@ -7,7 +7,7 @@
 //! that are sums on a [`complex_wavefront`], and those of small particles of [`partial_waves`]. The other, that
 //! of Sadeghi et al. 2012, is [`patches`]: sheets of rays cut into triangles on the sphere of directions,
 //! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`reference`]
-//! is a brute-force sum that needs no asymptotics. [`FarField`] is what the rest of the house uses.
+//! is a brute-force sum that needs no asymptotics; [`sphere_check`] says what the method is worth. [`FarField`] is what the rest of the house uses.
 
 pub mod assignment;
 pub mod azimuth;
@@ -25,6 +25,7 @@ pub mod partial_waves;
 pub mod patches;
 pub mod reference;
 mod settings;
+pub mod sphere_check;
 
 pub use column::Column;
 pub use direction::Direction;

@@ -1,13 +1,15 @@
 //! Reading a table, whole or wavelength by wavelength.
 
+use super::circumstances::read_numbers;
 use super::raw_read::{OpenDataset, OpenFile};
-use super::record::{ENERGY, PLAIN, Record};
+use super::record::{BY_DIRECTION, ENERGY, LATER, LEFT_OUT, PLAIN, Record};
 use super::schema::{
     ELEMENTS, FORMAT, FORMAT_VERSION, SWEEP_FORMAT, forward_peak_name, values_name,
 };
 use super::{TableError, damaged, foreign, invalid};
 use crate::phase_table::{
-    Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Averaging, Axes, ERROR_BANDS, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab,
+    TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -68,6 +70,14 @@ impl TableReader {
         Ok(self.file.number("bit_round")?.map(|bits| bits as u8))
     }
 
+    /// Largest relative error with which values were stored: half a bit of the mantissa kept.
+    ///
+    /// # Errors
+    /// When the attribute is there but damaged.
+    pub fn rounding(&self) -> Result<f64, TableError> {
+        Ok(self.bit_round()?.map_or(0.0, |bits| 0.5f64.powi(i32::from(bits))))
+    }
+
     /// Read one wavelength.
     ///
     /// # Errors
@@ -124,12 +134,18 @@ pub(super) fn slab_at(
         caustic_order,
         scattering_cross_section: record.scattering_cross_section,
         extinction_cross_section: record.extinction_cross_section,
+        absorption_cross_section: record.absorption_cross_section,
+        forward_extinction: (!record.forward_extinction.is_nan())
+            .then_some(record.forward_extinction),
+        tolerance_met: (!record.tolerance_met.is_nan()).then_some(record.tolerance_met == 1.0),
         asymmetry: record.asymmetry,
         energy: record.energy.clone(),
         sum_before_peak: record.sum_before_peak,
         peak_share: record.peak_share,
         error_estimate: record.error_estimate,
         error_by_band: record.error_by_band,
+        error_by_direction: record.error_by_direction,
+        left_out: record.left_out,
     })
 }
 
@@ -189,7 +205,14 @@ pub(super) fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
         theta: read_angles(file, "theta")?,
         phi: read_angles(file, "phi")?,
     };
+    // Those of the tables of a sweep are read with each table.
+    let swept = file.text("sweep_axes")?.is_some();
+    let (bodies, averaging, tolerance) =
+        if swept { (None, Averaging::default(), f64::NAN) } else { read_numbers(file, &[])? };
     Ok(TableHeader {
+        bodies,
+        averaging,
+        tolerance,
         axes,
         quantity,
         forward_peak,
@@ -273,23 +296,42 @@ pub(super) fn read_records(
     wavelengths: usize,
 ) -> Result<Vec<Record>, TableError> {
     let plain = PLAIN.map(|(name, ..)| read_field(file, name, leading, wavelengths, None));
-    let [scattering, extinction, asymmetry, real, imag, sum, share, error, by_band] = plain;
+    let [scattering, extinction, asymmetry, real, imag, sum, share, error] = plain;
     let (scattering, extinction, asymmetry) = (scattering?, extinction?, asymmetry?);
     let (real, imag, sum, share, error) = (real?, imag?, sum?, share?, error?);
-    // tables of older versions have none
-    let by_band = match file.dataset("error_estimate_by_band")? {
-        Some(_) => by_band?,
-        None => vec![f64::NAN; wavelengths],
+    let later = LATER.map(|(name, ..)| match file.dataset(name)? {
+        Some(_) => read_field(file, name, leading, wavelengths, None),
+        None => Ok(vec![f64::NAN; wavelengths]),
+    });
+    let [by_band, absorption, forward, met] = later;
+    let (by_band, absorption, forward, met) = (by_band?, absorption?, forward?, met?);
+    // Tables of older versions leave absorption to the reader.
+    let absorbed = |i: usize| {
+        if absorption[i].is_nan() { extinction[i] - scattering[i] } else { absorption[i] }
+    };
+    let bands = ERROR_BANDS as u64;
+    let by_direction = match file.dataset(BY_DIRECTION)? {
+        Some(_) => read_field(file, BY_DIRECTION, leading, wavelengths, Some(bands))?,
+        None => vec![f64::NAN; wavelengths * ERROR_BANDS],
+    };
+    let left_out = match file.dataset(LEFT_OUT)? {
+        Some(_) => read_field(file, LEFT_OUT, leading, wavelengths, None)?,
+        None => vec![0.0; wavelengths],
     };
     let record = |(i, energy)| Record {
         index: Complex64::new(real[i], imag[i]),
         scattering_cross_section: scattering[i],
         extinction_cross_section: extinction[i],
+        absorption_cross_section: absorbed(i),
+        forward_extinction: forward[i],
+        tolerance_met: met[i],
         asymmetry: asymmetry[i],
         sum_before_peak: sum[i],
         peak_share: share[i],
         error_estimate: error[i],
         error_by_band: by_band[i],
+        error_by_direction: std::array::from_fn(|k| by_direction[i * ERROR_BANDS + k]),
+        left_out: left_out[i],
         energy,
     };
     let budgets = read_budgets(file, leading, wavelengths)?;

@@ -5,7 +5,9 @@
 
 use super::TableError;
 use super::raw_write::{Kind, NewDataset, NewFile};
-use crate::phase_table::{EnergyBudget, Slab};
+use super::schema::scale;
+use super::units::degree;
+use crate::phase_table::{ERROR_BANDS, EnergyBudget, Slab, error_theta};
 use num_complex::Complex64;
 
 /// The numbers of one slab.
@@ -14,11 +16,17 @@ pub(super) struct Record {
     pub index: Complex64,
     pub scattering_cross_section: f64,
     pub extinction_cross_section: f64,
+    pub absorption_cross_section: f64,
+    /// NaN where there is none, as in the file.
+    pub forward_extinction: f64,
+    pub tolerance_met: f64,
     pub asymmetry: f64,
     pub sum_before_peak: f64,
     pub peak_share: f64,
     pub error_estimate: f64,
     pub error_by_band: f64,
+    pub error_by_direction: [f64; ERROR_BANDS],
+    pub left_out: f64,
     pub energy: Option<EnergyBudget>,
 }
 
@@ -28,11 +36,16 @@ impl From<&Slab> for Record {
             index: slab.index,
             scattering_cross_section: slab.scattering_cross_section,
             extinction_cross_section: slab.extinction_cross_section,
+            absorption_cross_section: slab.absorption_cross_section,
+            forward_extinction: slab.forward_extinction.unwrap_or(f64::NAN),
+            tolerance_met: slab.tolerance_met.map_or(f64::NAN, |met| f64::from(u8::from(met))),
             asymmetry: slab.asymmetry,
             sum_before_peak: slab.sum_before_peak,
             peak_share: slab.peak_share,
             error_estimate: slab.error_estimate,
             error_by_band: slab.error_by_band,
+            error_by_direction: slab.error_by_direction,
+            left_out: slab.left_out,
             energy: slab.energy.clone(),
         }
     }
@@ -41,7 +54,7 @@ impl From<&Slab> for Record {
 type Getter<T> = fn(&T) -> f64;
 
 /// Variables that every slab has: name, units, words, value.
-pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 9] = [
+pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
     ("scattering_cross_section", "m2", "scattering cross-section", |r| r.scattering_cross_section),
     ("extinction_cross_section", "m2", "extinction cross-section", |r| r.extinction_cross_section),
     ("asymmetry", "1", "mean cosine of the scattering angle", |r| r.asymmetry),
@@ -62,12 +75,26 @@ pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 9] = [
         "estimated relative error of the intensity, weighted by intensity, 10 to 170 degrees",
         |r| r.error_estimate,
     ),
+];
+
+/// The same, absent in tables of older versions.
+pub(super) const LATER: [(&str, &str, &str, Getter<Record>); 4] = [
     (
         "error_estimate_by_band",
         "1",
         "the same, root mean square over bands of 4 degrees relative to their own intensity",
         |r| r.error_by_band,
     ),
+    ("absorption_cross_section", "m2", "absorption cross-section", |r| r.absorption_cross_section),
+    (
+        "extinction_straight_ahead",
+        "m2",
+        "extinction by the optical theorem on the amplitude at theta = 0, NaN without diffraction",
+        |r| r.forward_extinction,
+    ),
+    ("tolerance_met", "1", "1 where the error asked for is met, 0 where not, NaN not known", |r| {
+        r.tolerance_met
+    }),
 ];
 
 /// Variables of the energy budget beside the orders.
@@ -86,10 +113,18 @@ pub(super) fn write_records(
     dimensions: &[&NewDataset],
     shape: &[u64],
 ) -> Result<(), TableError> {
-    for (name, units, words, value) in PLAIN {
+    for (name, units, words, value) in PLAIN.into_iter().chain(LATER) {
         let values: Vec<f64> = records.iter().map(|r| r.as_ref().map_or(f64::NAN, value)).collect();
         write_field(file, (name, units, words), &values, dimensions, shape)?;
     }
+    // A share of 0 says nothing.
+    let left_out: Vec<f64> =
+        records.iter().map(|r| r.as_ref().map_or(0.0, |r| r.left_out)).collect();
+    if left_out.iter().any(|&share| share != 0.0) {
+        let words = "share of the scattered power in orders that the scene's list leaves out";
+        write_field(file, (LEFT_OUT, "1", words), &left_out, dimensions, shape)?;
+    }
+    write_errors(file, records, dimensions, shape)?;
 
     let budgets: Vec<Option<&EnergyBudget>> =
         records.iter().map(|r| r.as_ref().and_then(|r| r.energy.as_ref())).collect();
@@ -102,6 +137,31 @@ pub(super) fn write_records(
         write_field(file, (name, "1", &words), &values, dimensions, shape)?;
     }
     write_orders(file, &budgets, dimensions, shape)
+}
+
+/// The variable with the stated error by scattering angle.
+pub(super) const BY_DIRECTION: &str = "error_estimate_by_direction";
+
+/// The variable with the share of orders left out by a list.
+pub(super) const LEFT_OUT: &str = "left_out_share";
+
+fn write_errors(
+    file: &NewFile,
+    records: &[Option<Record>],
+    dimensions: &[&NewDataset],
+    shape: &[u64],
+) -> Result<(), TableError> {
+    let middles: Vec<f64> = (0..ERROR_BANDS).map(|band| degree(error_theta(band))).collect();
+    let theta = scale(file, "error_theta", &middles, "degree")?;
+    theta.attribute("long_name", "middle of a band of scattering angles")?;
+    let errors =
+        |r: &Option<Record>| r.as_ref().map_or([f64::NAN; ERROR_BANDS], |r| r.error_by_direction);
+    let values: Vec<f64> = records.iter().flat_map(errors).collect();
+    let words = "estimated relative error of the intensity within 2 degrees of each angle";
+    let (mut dimensions, mut shape) = (dimensions.to_vec(), shape.to_vec());
+    dimensions.push(&theta);
+    shape.push(ERROR_BANDS as u64);
+    write_field(file, (BY_DIRECTION, "1", words), &values, &dimensions, &shape)
 }
 
 fn write_orders(

@@ -2,9 +2,10 @@
 
 use super::TableError;
 use super::chunk::{ChunkEncoder, encode_and_write, encoders};
+use super::circumstances::write_attributes;
 use super::output::WriteOptions;
 use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
-use crate::math::digits::to_digits;
+use super::units::{degree, tidy};
 use crate::phase_table::{Axes, ForwardPeak, Quantity, TableHeader};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -164,17 +165,6 @@ pub(super) fn nm(metres: f64) -> f64 {
     tidy(metres * 1e9)
 }
 
-/// Radians to degrees, tidied likewise.
-pub(super) fn degree(radians: f64) -> f64 {
-    tidy(radians.to_degrees())
-}
-
-/// Round to 13 significant digits where that changes the last bits only.
-pub(super) fn tidy(value: f64) -> f64 {
-    let rounded = to_digits(value, 13);
-    if (rounded - value).abs() <= 4.0 * f64::EPSILON * value.abs() { rounded } else { value }
-}
-
 /// Root attributes of tables and sweeps.
 pub(super) fn write_root(
     file: &NewFile,
@@ -208,6 +198,7 @@ pub(super) fn write_root(
     if let Some(bits) = options.bit_round {
         file.attribute_integer("bit_round", i32::from(bits))?;
     }
+    write_attributes(file, header)?;
     options.attributes.iter().try_for_each(|(name, text)| file.attribute(name, text))
 }
 

@@ -1,13 +1,14 @@
 //! Many tables in one file: a sweep, with one more leading dimension per swept value.
 
 use super::body::Body;
+use super::circumstances::{read_numbers, write_numbers, write_scalars};
 use super::output::{Output, WriteOptions};
 use super::raw_read::OpenFile;
 use super::raw_write::{Kind, NewDataset, NewFile};
 use super::reader::{check_version, coordinate, read_header, read_records, slab_at};
 use super::record::{Record, write_records};
 use super::schema::{Dimensions, SWEEP_FORMAT, values_name, write_root};
-use super::writer::{check_slab, write_circumstances};
+use super::writer::check_slab;
 use super::{TableError, damaged, estimate_bytes, foreign, invalid};
 use crate::phase_table::{PhaseTable, Slab, TableHeader};
 use std::path::Path;
@@ -73,6 +74,8 @@ pub struct SweepWriter {
     file: NewFile,
     output: Output,
     header: TableHeader,
+    /// Of every table, once it was described.
+    headers: Vec<Option<TableHeader>>,
     records: Vec<Option<Record>>,
 }
 
@@ -101,12 +104,36 @@ impl SweepWriter {
         let dimensions = Dimensions::create(&file, &header.axes, header.quantity)?;
         dimensions.write_solid_angle(&file, &header.axes)?;
         let swept = |name: &str| axes.iter().flat_map(|a| &a.coordinates).any(|c| c.name == name);
-        write_circumstances(&file, header, swept)?;
+        write_scalars(&file, header, swept)?;
         let leading: Vec<(&NewDataset, u64)> = scales.iter().zip(shape.iter().copied()).collect();
         let body = Body::create(&file, header, &dimensions, &leading, options)?;
         let records = vec![None; tables as usize * header.axes.wavelength.len()];
+        let headers = vec![None; tables as usize];
         let header = header.clone();
-        Ok(SweepWriter { body, dimensions, scales, shape, file, output, header, records })
+        Ok(SweepWriter { body, dimensions, scales, shape, file, output, header, headers, records })
+    }
+
+    /// Say what the table at `position` (an index per axis) has of its own: its particles as bodies,
+    /// what was averaged over, the error asked for. What all tables have in common is not looked at.
+    ///
+    /// # Errors
+    /// When there is no such place.
+    pub fn describe(&mut self, position: &[usize], header: &TableHeader) -> Result<(), TableError> {
+        let table = self.number(position)?;
+        self.headers[table] = Some(header.clone());
+        Ok(())
+    }
+
+    /// Number of the table at a position.
+    fn number(&self, position: &[usize]) -> Result<usize, TableError> {
+        let inside = position.len() == self.shape.len()
+            && position.iter().zip(&self.shape).all(|(&i, &n)| (i as u64) < n);
+        if !inside {
+            let accepted = format!("one index per axis of {:?}", self.shape);
+            return Err(invalid("position", format!("{position:?}"), &accepted));
+        }
+        let places = position.iter().zip(&self.shape);
+        Ok(places.fold(0, |at, (&i, n)| at * n + i as u64) as usize)
     }
 
     /// Write one wavelength of the table at `position` (an index per axis).
@@ -120,14 +147,8 @@ impl SweepWriter {
         slab: &Slab,
     ) -> Result<(), TableError> {
         check_slab(&self.header, index, slab)?;
-        let inside = position.len() == self.shape.len()
-            && position.iter().zip(&self.shape).all(|(&i, &n)| (i as u64) < n);
-        if !inside {
-            let accepted = format!("one index per axis of {:?}", self.shape);
-            return Err(invalid("position", format!("{position:?}"), &accepted));
-        }
+        let table = self.number(position)?;
         let mut place: Vec<u64> = position.iter().map(|&i| i as u64).collect();
-        let table = place.iter().zip(&self.shape).fold(0, |at, (i, n)| at * n + i) as usize;
         place.push(index as u64);
         let scales: Vec<&NewDataset> = self.scales.iter().collect();
         self.body.write(&self.file, &self.dimensions, &scales, &place, slab)?;
@@ -141,7 +162,8 @@ impl SweepWriter {
     /// # Errors
     /// When the disk is full, or a file of that name has appeared meanwhile.
     pub fn finish(self) -> Result<(), TableError> {
-        let SweepWriter { body, dimensions, scales, shape, file, output, header, records } = self;
+        let SweepWriter { body, dimensions, scales, shape, file, output, header, headers, records } =
+            self;
         let wavelengths = header.axes.wavelength.len();
         let leading: Vec<&NewDataset> = scales.iter().collect();
 
@@ -151,6 +173,7 @@ impl SweepWriter {
         data.write(&present)?;
         data.attribute("long_name", "1 where a table is present")?;
         data.attach(&leading)?;
+        write_numbers(&file, &headers, &leading, &shape)?;
 
         let mut along = leading.clone();
         along.push(&dimensions.wavelength);
@@ -240,6 +263,14 @@ impl SweepReader {
         &self.header
     }
 
+    /// Largest relative error with which values were stored: half a bit of the mantissa kept.
+    ///
+    /// # Errors
+    /// When the attribute is there but damaged.
+    pub fn rounding(&self) -> Result<f64, TableError> {
+        Ok(self.file.number("bit_round")?.map_or(0.0, |bits| 0.5f64.powf(bits)))
+    }
+
     pub fn axes(&self) -> &[SweepAxis] {
         &self.axes
     }
@@ -262,6 +293,7 @@ impl SweepReader {
         let wavelengths = self.header.axes.wavelength.len();
         let records = read_records(&self.file, &place, wavelengths)?;
         let mut header = self.header.clone();
+        (header.bodies, header.averaging, header.tolerance) = read_numbers(&self.file, &place)?;
         for (axis, &i) in self.axes.iter().zip(position) {
             for coordinate in &axis.coordinates {
                 if let AxisValues::Numbers(values) = &coordinate.values {
@@ -272,6 +304,9 @@ impl SweepReader {
                     }
                 }
             }
+        }
+        if let (true, Some(bodies)) = (header.averaging.sizes, &header.bodies) {
+            header.radius = bodies.effective_radius;
         }
         let slab = |(index, record): (usize, &Record)| {
             slab_at(&self.file, &header, record, &place, index, self.has_caustic)

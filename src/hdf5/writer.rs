@@ -1,10 +1,11 @@
 //! Writing one table, wavelength by wavelength: memory does not grow with their number.
 
 use super::body::Body;
+use super::circumstances::{write_numbers, write_scalars};
 use super::output::{Output, WriteOptions};
-use super::raw_write::{Kind, NewFile};
+use super::raw_write::NewFile;
 use super::record::{Record, write_records};
-use super::schema::{Dimensions, FORMAT, degree, tidy, write_root};
+use super::schema::{Dimensions, FORMAT, write_root};
 use super::{TableError, estimate_bytes, invalid};
 use crate::phase_table::{PhaseTable, Slab, TableHeader};
 use std::path::Path;
@@ -43,7 +44,8 @@ impl TableWriter {
         write_root(&file, header, FORMAT, &options)?;
         let dimensions = Dimensions::create(&file, &header.axes, header.quantity)?;
         dimensions.write_solid_angle(&file, &header.axes)?;
-        write_circumstances(&file, header, |_| false)?;
+        write_scalars(&file, header, |_| false)?;
+        write_numbers(&file, &[Some(header.clone())], &[], &[])?;
         let body = Body::create(&file, header, &dimensions, &[], &options)?;
         let records = vec![None; header.axes.wavelength.len()];
         Ok(TableWriter { body, dimensions, file, output, header: header.clone(), records })
@@ -94,51 +96,6 @@ pub fn write(path: &Path, table: &PhaseTable, options: WriteOptions) -> Result<(
         writer.write_slab(index, slab)?;
     }
     writer.finish()
-}
-
-/// The scalars of a table, radius and sun, without those that are `swept`.
-pub(super) fn write_circumstances(
-    file: &NewFile,
-    header: &TableHeader,
-    swept: impl Fn(&str) -> bool,
-) -> Result<(), TableError> {
-    let elevation = degree(header.sun_elevation);
-    let scalars = [
-        (
-            "radius_um",
-            tidy(header.radius * 1e6),
-            "um",
-            None,
-            "radius of the sphere of equal volume",
-        ),
-        (
-            "sun_elevation",
-            elevation,
-            "degree",
-            Some("solar_elevation_angle"),
-            "sun above the horizon",
-        ),
-        (
-            "solar_zenith_angle",
-            90.0 - elevation,
-            "degree",
-            Some("solar_zenith_angle"),
-            "sun from the zenith",
-        ),
-    ];
-    for (name, value, units, standard_name, words) in scalars {
-        if swept(name) || (name == "solar_zenith_angle" && swept("sun_elevation")) {
-            continue;
-        }
-        let data = file.dataset(name, Kind::F64, &[], None)?;
-        data.write(&[value])?;
-        data.attribute("units", units)?;
-        data.attribute("long_name", words)?;
-        if let Some(standard_name) = standard_name {
-            data.attribute("standard_name", standard_name)?;
-        }
-    }
-    Ok(())
 }
 
 /// Refuse a slab that does not fit the header.

@@ -75,6 +75,7 @@ impl BandModel {
         let wavelength: Vec<f64> = (300..=900).map(|nm| f64::from(nm) / 1e9).collect();
         let k: Vec<f64> = wavelength.iter().map(|&w| self.extinction(w)).collect();
         let absorption = Absorption::new(&wavelength, &k, Tails::Taper)?;
-        Ok(Dye { name: self.name.into(), source: self.source.into(), absorption })
+        let notes = Vec::new();
+        Ok(Dye { name: self.name.into(), source: self.source.into(), absorption, notes })
     }
 }

@@ -120,6 +120,31 @@ pub fn extinction_from_index(
     Ok(wavelength.iter().map(at_row).collect())
 }
 
+/// What the ends of the data are worth at every row: by how much k would change if `n − n_b` did not
+/// end with them, but went on as it must somewhere: constant towards long waves, and falling as `λ²`
+/// towards short ones (as far above all bands). Without this, a k from a short range of n looks as
+/// good as any. At the very ends, where the integral diverges, half a row's distance is taken.
+///
+/// With `Δ₁` and `Δ₂` the changes of n in the first and the last row in frequency,
+/// `δk = |Δ₁/π · ln((ω + ω₁)/(ω − ω₁))| + |2ωω₂²Δ₂/π · (ln((ω₂ + ω)/(ω₂ − ω))/2ω³ − 1/ω²ω₂)|`.
+pub fn worth_of_range(wavelength: &[f64], index_change: &[f64]) -> Result<Vec<f64>, MediumError> {
+    curve(wavelength, index_change)?;
+    let (omega, values) = by_frequency(wavelength, index_change);
+    let last = omega.len() - 1;
+    let (low, high) = (omega[0], omega[last]);
+    let half_row = [0.5 * (omega[1] - low), 0.5 * (high - omega[last - 1])];
+    let at_row = |w: &f64| {
+        let omega = 1.0 / w;
+        let (above, below) = ((omega - low).max(half_row[0]), (high - omega).max(half_row[1]));
+        let long = values[0] / PI * ((omega + low) / above).ln();
+        let integral =
+            ((high + omega) / below).ln() / (2.0 * omega.powi(3)) - 1.0 / (omega * omega * high);
+        let short = 2.0 * omega / PI * values[last] * high * high * integral;
+        long.abs() + short.abs()
+    };
+    Ok(wavelength.iter().map(at_row).collect())
+}
+
 fn transform(omega: &[f64], values: &[f64], between: Between) -> PiecewisePolynomial {
     let last = omega.len() - 1;
     let below = (omega[1] - omega[0]).min(omega[0]);

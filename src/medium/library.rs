@@ -4,8 +4,8 @@
 
 use super::band_model::BandModel;
 use super::kramers_kronig::{Absorption, Tails};
-use super::table::{Table, Unit, curve};
-use super::{Daimon, Dye, Formula, Material, Medium, MediumError, csv_table, invalid};
+use super::table::Table;
+use super::{Daimon, Dye, Formula, Material, Medium, MediumError, Unit, csv_table, invalid};
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -118,13 +118,18 @@ pub(super) fn canonical(name: &str) -> Result<String, MediumError> {
     if let Some((_, found)) = known.iter().find(|(spelling, _)| key(spelling) == wanted) {
         return Ok(found.clone());
     }
-    let nearest = known
-        .iter()
-        .map(|(spelling, _)| (distance(&wanted, &key(spelling)), spelling))
+    let nearest = nearest(name, known.iter().map(|(spelling, _)| spelling.as_str()));
+    Err(MediumError::Unknown { name: name.into(), nearest })
+}
+
+/// The name that a misspelt one may stand for.
+pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    let wanted = key(name);
+    known
+        .map(|spelling| (distance(&wanted, &key(spelling)), spelling))
         .min()
         .filter(|(d, _)| *d <= 1 + wanted.chars().count() / 3)
-        .map(|(_, spelling)| spelling.clone());
-    Err(MediumError::Unknown { name: name.into(), nearest })
+        .map(|(_, spelling)| spelling.to_string())
 }
 
 /// All spellings with the name each stands for.
@@ -144,7 +149,8 @@ fn names() -> Vec<(String, String)> {
 pub(super) fn material(name: &str) -> Result<Material, MediumError> {
     if let Some((name, file, _)) = TABLES.iter().find(|t| t.0 == name) {
         let table = table(file);
-        return from_table(name, table);
+        let material = Material::from_curve(*name, &table.source, table.n.curve());
+        return Ok(material.with_extinction(table.k.curve()));
     }
     let entry = catalogue().materials.iter().find(|e| e.name == name);
     let Some(entry) = entry else {
@@ -153,10 +159,10 @@ pub(super) fn material(name: &str) -> Result<Material, MediumError> {
     let um = |value| Unit::Micrometre.to_metres(value);
     let range = (um(entry.range_um.0), um(entry.range_um.1));
     let formula = Formula::new(entry.formula, entry.coefficients.clone())?;
-    let material = Material::from_formula(&entry.name, source(entry), formula, range)?;
+    formula.check_range(entry.range_um.0, entry.range_um.1)?;
+    let material = Material::from_formula(&entry.name, source(entry), formula, range);
     if name == "water-kedenburg" {
-        let k = table("water_k_kedenburg_2012");
-        return material.with_extinction(curve(&k.wavelength, &k.k)?);
+        return Ok(material.with_extinction(table("water_k_kedenburg_2012").k.curve()));
     }
     Ok(material)
 }
@@ -172,12 +178,6 @@ fn source(entry: &CatalogueEntry) -> String {
     text
 }
 
-fn from_table(name: &str, table: &Table) -> Result<Material, MediumError> {
-    let n = curve(&table.wavelength, &table.n)?;
-    let k = curve(&table.wavelength, &table.k)?;
-    Material::from_tables(name, &table.source, n, Some(k))
-}
-
 /// A dye by its canonical name: its absorption at fraction 1.
 pub(super) fn dye(name: &str) -> Result<Dye, MediumError> {
     if let Some(model) = BandModel::by_name(name) {
@@ -185,9 +185,10 @@ pub(super) fn dye(name: &str) -> Result<Dye, MediumError> {
     }
     if name == "rhodamine6g" {
         let table = table("rhodamine6g_film_seckin_2023");
-        let absorption = Absorption::new(&table.wavelength, &table.k, Tails::Taper)?;
+        let (wavelength, k) = table.k.complete()?;
+        let absorption = Absorption::new(wavelength, k, Tails::Taper)?;
         let source = table.source.clone();
-        return Ok(Dye { name: name.into(), source, absorption });
+        return Ok(Dye { name: name.into(), source, absorption, notes: Vec::new() });
     }
     Err(invalid("solute", name, &format!("rhodamine6g, {}", MODELS.join(", "))))
 }

@@ -6,20 +6,28 @@
 //! air, which this program takes as index 1.
 
 mod abbe;
+mod agf;
 mod band_model;
+mod csv_cells;
 mod csv_table;
 mod daimon;
+mod density;
+mod extinction;
 mod formula;
+mod index_text;
 pub mod kramers_kronig;
 mod library;
 mod material;
 mod refractive_index_info;
 mod resolve;
+mod samples;
 mod sea_water;
 mod solution;
 mod spec;
 mod spec_keys;
 mod table;
+mod text;
+mod unit;
 mod water;
 mod water_absorption;
 
@@ -27,28 +35,36 @@ pub use abbe::{Abbe, AbbeLines, abbe_to_sellmeier, fit_cauchy};
 pub use band_model::BandModel;
 pub use csv_table::read as read_csv;
 pub use daimon::Daimon;
+pub use density::Density;
+pub use extinction::Extinction;
 pub use formula::Formula;
+pub use index_text::parse_index;
 pub use library::{LibraryEntry, list};
 pub use material::{Material, RealIndex};
+pub use samples::{DataCurve, Samples};
 pub use solution::{Dye, Solution};
 pub use spec::{MediumSpec, NamedSpec};
 pub use table::Table;
+pub use unit::Unit;
 
+use crate::math::digits::to_digits;
 use num_complex::Complex64;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What went wrong with a medium: the field or file, the value, and what is accepted.
 #[derive(Debug, thiserror::Error)]
 pub enum MediumError {
-    #[error(
-        "wavelength {wavelength_nm} nm is outside the data of {name} ({from_nm} to {to_nm} nm)"
-    )]
-    OutOfRange { name: String, wavelength_nm: f64, from_nm: f64, to_nm: f64 },
+    /// Numbers are nanometres with as many digits as tell them apart.
+    #[error("wavelength {wavelength} nm is outside the data of {name} ({range}){hint}")]
+    OutOfRange { name: String, wavelength: String, range: String, hint: String },
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
     #[error("{}{}: {message}", path.display(), line.map(|l| format!(", line {l}")).unwrap_or_default())]
     File { path: PathBuf, line: Option<usize>, message: String },
+    /// Data of the extinction coefficient alone make no medium.
+    #[error("{}: the file holds no n (only k): give n by another file or a host medium", path.display())]
+    OnlyExtinction { path: PathBuf },
     #[error(
         "unknown medium \"{name}\"{}; gonio material --list shows all names",
         nearest.as_ref().map(|n| format!(", did you mean \"{n}\"?")).unwrap_or_default()
@@ -156,6 +172,17 @@ impl Medium {
         }
     }
 
+    /// What the readers of its files changed or left out, for the user to know.
+    pub fn notes(&self) -> Vec<String> {
+        match self {
+            Medium::Material(material) => {
+                material.notes.iter().map(|note| format!("{}: {note}", material.name)).collect()
+            }
+            Medium::Solution(solution) => solution.notes(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Refuses temperatures, densities and salinities outside the data.
     fn check_conditions(&self) -> Result<(), MediumError> {
         match self {
@@ -187,10 +214,18 @@ fn check_range(name: &str, wavelength: f64, range: (f64, f64)) -> Result<(), Med
     }
     Err(MediumError::OutOfRange {
         name: name.into(),
-        wavelength_nm: nanometres(wavelength),
-        from_nm: nanometres(range.0),
-        to_nm: nanometres(range.1),
+        wavelength: nanometres(wavelength),
+        range: range_text(range),
+        hint: String::new(),
     })
+}
+
+/// A range of wavelengths (metres) for messages; one row is a range of its own.
+fn range_text((from, to): (f64, f64)) -> String {
+    match from == to {
+        true => format!("one row, at {} nm", nanometres(from)),
+        false => format!("{} to {} nm", nanometres(from), nanometres(to)),
+    }
 }
 
 /// What [`is_plausible`] accepts, in words.
@@ -202,25 +237,30 @@ pub fn is_plausible(index: Complex64) -> bool {
     (1e-4..=1e4).contains(&index.re) && (0.0..=1e4).contains(&index.im)
 }
 
-/// Nanometres to a millionth, for messages: 400 reads better than 400.00000000000006.
-fn nanometres(metres: f64) -> f64 {
-    (metres * 1e15).round() / 1e6
+/// Metres as nanometres for messages: 400 reads better than 400.00000000000006.
+fn nanometres(metres: f64) -> String {
+    digits(metres * 1e9)
 }
 
-/// Largest file of optical data that is read, bytes; the largest of the databases has 2 MB.
-const LARGEST_FILE: u64 = 64 << 20;
+/// A number for messages, to 13 digits: rounding does not show, and values that differ do.
+fn digits(value: f64) -> String {
+    let rounded = to_digits(value, 13);
+    match rounded.abs() {
+        size if size == 0.0 || (1e-5..1e15).contains(&size) => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
 
-/// The text of a file of optical data.
-fn read_text(path: &Path) -> Result<String, MediumError> {
-    let fail = |message: String| MediumError::File { path: path.into(), line: None, message };
-    let data = std::fs::metadata(path).map_err(|e| fail(e.to_string()))?;
-    // Opening a pipe would wait for its other end; a folder has no text.
-    if !data.is_file() {
-        return Err(fail("not a regular file".into()));
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two numbers that differ enough to be refused never read alike.
+    #[test]
+    fn messages_show_the_digits_that_differ() {
+        let message = check_range("x", 700.0000001e-9, (300e-9, 700e-9)).unwrap_err().to_string();
+        assert_eq!(message, "wavelength 700.0000001 nm is outside the data of x (300 to 700 nm)");
+        assert_eq!(nanometres(400e-9), "400");
+        assert_eq!(digits(1.5e-9), "1.5e-9");
     }
-    let size = data.len();
-    if size > LARGEST_FILE {
-        return Err(fail(format!("{size} bytes, at most {LARGEST_FILE} are read")));
-    }
-    std::fs::read_to_string(path).map_err(|e| fail(e.to_string()))
 }

@@ -4,9 +4,10 @@
 //! The parser delivers events, one after another; nothing here recurses into what the file holds,
 //! aliases are refused and depth is bounded, so a hostile file ends in a message.
 
-use super::table::{Column, Table, TableBuilder, Unit, file_error, name_of};
-use super::{Formula, Material, MediumError};
-use crate::math::monotone::MonotoneCurve;
+use super::extinction::{Data, Extinction};
+use super::samples::Row;
+use super::table::{Column, Table, TableBuilder, file_error, name_of};
+use super::{DataCurve, Formula, Material, MediumError, Unit, text};
 use saphyr_parser::{Event, Parser};
 use std::path::Path;
 
@@ -33,11 +34,25 @@ struct Block<'a> {
 
 /// Reads a material from a file.
 pub fn read(path: &Path) -> Result<Material, MediumError> {
-    parse(&super::read_text(path)?, path)
+    match read_data(path)? {
+        Data::Material(material) => Ok(*material),
+        Data::Extinction(_) => Err(MediumError::OnlyExtinction { path: path.into() }),
+    }
 }
 
-/// Reads a material from text; `path` is for messages and, without its ending, the name.
-pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
+/// Reads a material, or k where there is no n.
+pub(super) fn read_data(path: &Path) -> Result<Data, MediumError> {
+    let text = text::read(path)?;
+    let mut data = parse(&text.text, path)?;
+    match &mut data {
+        Data::Material(material) => material.notes.splice(0..0, text.note),
+        Data::Extinction(extinction) => extinction.notes.splice(0..0, text.note),
+    };
+    Ok(data)
+}
+
+/// Reads the data from text; `path` is for messages and, without its ending, the name.
+fn parse(text: &str, path: &Path) -> Result<Data, MediumError> {
     let entries = flatten(text, path)?;
     let name = name_of(path);
     let source = entries
@@ -47,7 +62,8 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
         .unwrap_or_else(|| "no reference in the file".into());
     let blocks = blocks(&entries, path)?;
     let mut real: Option<Material> = None;
-    let mut extinction: Option<MonotoneCurve> = None;
+    let mut extinction: Option<DataCurve> = None;
+    let mut notes = Vec::new();
     for block in &blocks {
         match block.kind.value.split_whitespace().collect::<Vec<_>>().as_slice() {
             ["formula", number] if real.is_none() => {
@@ -55,15 +71,16 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
             }
             ["tabulated", kind @ ("n" | "k" | "nk")] => {
                 let table = tabulated(block, kind, path)?;
+                notes.extend(table.notes);
                 if !table.n.is_empty() && real.is_none() {
-                    let curve = curve(&table.wavelength, &table.n, path)?;
-                    real = Some(Material::from_tables(&name, &source, curve, None)?);
+                    real = Some(Material::from_curve(&name, &source, table.n.curve()));
                 }
                 if !table.k.is_empty() && extinction.is_none() {
-                    extinction = Some(curve(&table.wavelength, &table.k, path)?);
+                    extinction = Some(table.k.curve());
                 }
             }
-            ["formula", _] => {}
+            // The nonlinear index may stand beside the linear one, which alone is of use here.
+            ["formula", _] | ["tabulated", "n2"] => {}
             _ => {
                 let message = format!(
                     "type \"{}\": expected \"formula 1\" to \"formula 9\", \"tabulated n\", \
@@ -74,14 +91,20 @@ pub(super) fn parse(text: &str, path: &Path) -> Result<Material, MediumError> {
             }
         }
     }
-    let Some(real) = real else {
-        let message = "the file holds no n (only k): give n by another file or a host medium";
-        return Err(file_error(path, None, message));
+    let Some(mut real) = real else {
+        return match extinction {
+            Some(curve) => Ok(Data::Extinction(Extinction::new(name, source, notes, curve))),
+            None => {
+                Err(file_error(path, None, "the file holds no n (only the nonlinear index n2)"))
+            }
+        };
     };
-    match extinction {
+    real.unit = Some(Unit::Micrometre);
+    real.notes = notes;
+    Ok(Data::Material(Box::new(match extinction {
         Some(curve) => real.with_extinction(curve),
-        None => Ok(real),
-    }
+        None => real,
+    })))
 }
 
 /// A list or a table that the parser is in.
@@ -185,11 +208,7 @@ impl Block<'_> {
 }
 
 fn numbers(entry: &Entry, path: &Path) -> Result<Vec<f64>, MediumError> {
-    let parse = |word: &str| {
-        word.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| {
-            file_error(path, Some(entry.line), format!("\"{word}\" is not a finite number"))
-        })
-    };
+    let parse = |word: &str| number(word).map_err(|e| file_error(path, Some(entry.line), e));
     entry.value.split_whitespace().map(parse).collect()
 }
 
@@ -209,20 +228,13 @@ fn formula(
             return Err(file_error(path, Some(range_entry.line), message));
         }
     };
-    if range.0 > 100.0 {
-        let message = format!(
-            "range {} to {} µm: wavelengths are in micrometres here (they look like nm)",
-            range.0, range.1
-        );
-        return Err(file_error(path, Some(range_entry.line), message));
-    }
     let coefficients = block.field(&["coefficients"], path)?;
     let number: u32 = number.parse().map_err(|_| {
         file_error(path, Some(block.kind.line), format!("formula \"{number}\": expected 1 to 9"))
     })?;
     let law = Formula::new(number, numbers(coefficients, path)?).map_err(at(coefficients.line))?;
     let range = (Unit::Micrometre.to_metres(range.0), Unit::Micrometre.to_metres(range.1));
-    Material::from_formula(name, source, law, range).map_err(at(coefficients.line))
+    Ok(Material::from_formula(name, source, law, range))
 }
 
 fn tabulated(block: &Block, kind: &str, path: &Path) -> Result<Table, MediumError> {
@@ -232,15 +244,28 @@ fn tabulated(block: &Block, kind: &str, path: &Path) -> Result<Table, MediumErro
         _ => vec![Column::N, Column::K],
     };
     let data = block.field(&["data"], path)?;
-    let mut builder = TableBuilder::new(path, Unit::Micrometre, columns);
+    let mut builder = TableBuilder::new(path);
     for (i, row) in data.value.lines().enumerate().filter(|(_, row)| !row.trim().is_empty()) {
-        let row = Entry { path: String::new(), value: row.into(), line: data.line + i };
-        builder.push(row.line, &numbers(&row, path)?)?;
+        let line = data.line + i;
+        let words: Vec<&str> = row.split_whitespace().collect();
+        let expected = columns.len() + 1;
+        let wavelength = number(words[0]).and_then(|um| match um > 0.0 {
+            true => Ok(Unit::Micrometre.to_metres(um)),
+            false => Err(format!("wavelength {um} µm must be positive")),
+        });
+        for (j, column) in columns.iter().enumerate() {
+            let value = match words.get(j + 1) {
+                Some(word) if words.len() <= expected => wavelength.clone().and(number(word)),
+                _ => Err(format!("{} numbers, expected {expected}", words.len())),
+            };
+            builder.push(*column, Row { line, wavelength: wavelength.clone().ok(), value });
+        }
     }
-    builder.finish(String::new())
+    builder.finish(String::new(), Unit::Micrometre)
 }
 
-fn curve(x: &[f64], y: &[f64], path: &Path) -> Result<MonotoneCurve, MediumError> {
-    MonotoneCurve::new(x.to_vec(), y.to_vec())
-        .ok_or_else(|| file_error(path, None, "the table makes no curve"))
+/// A finite number.
+fn number(word: &str) -> Result<f64, String> {
+    let value = word.parse::<f64>().ok().filter(|v| v.is_finite());
+    value.ok_or_else(|| format!("\"{word}\" is not a finite number"))
 }

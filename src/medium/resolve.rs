@@ -3,10 +3,10 @@
 
 use super::kramers_kronig::{Absorption, Tails};
 use super::spec::{MediumSpec, NamedSpec, has_ending};
-use super::table::{curve, name_of};
+use super::table::{file_error, name_of};
 use super::{
     Abbe, BandModel, Daimon, Dye, Formula, Material, Medium, MediumError, PLAUSIBLE_INDEX,
-    RealIndex, Solution, csv_table, invalid, is_plausible, library, refractive_index_info,
+    Solution, agf, csv_table, invalid, is_plausible, library, refractive_index_info,
 };
 use num_complex::Complex64;
 use std::path::Path;
@@ -18,8 +18,8 @@ impl MediumSpec {
         match self {
             Self::Named(named) => named.resolve(),
             Self::Index { n, k } => constant(*n, *k),
-            Self::File { path, extrapolate } => {
-                let mut material = read_material(&base_dir.join(path))?;
+            Self::File { path, glass, extrapolate } => {
+                let mut material = read_material(&base_dir.join(path), glass.as_deref())?;
                 material.extrapolate = *extrapolate;
                 Ok(Medium::Material(Arc::new(material)))
             }
@@ -118,14 +118,8 @@ fn from_formula(name: &str, formula: Formula) -> Result<Medium, MediumError> {
     let (from, to) = ((from * 1.000_001).max(0.1), (to * 0.999_999).min(20.0));
     // Visible light must be in it: a pole there is a slip of the pen, not a wish.
     formula.check_range(0.38, 0.78)?;
-    let material = Material {
-        name: name.into(),
-        source: "given by its coefficients".into(),
-        real: RealIndex::Formula(formula),
-        extinction: None,
-        range: (from / 1e6, to / 1e6),
-        extrapolate: false,
-    };
+    let range = (from / 1e6, to / 1e6);
+    let material = Material::from_formula(name, "given by its coefficients", formula, range);
     Ok(Medium::Material(Arc::new(material)))
 }
 
@@ -139,31 +133,37 @@ fn solution(
     Ok(Medium::Solution(Arc::new(solution)))
 }
 
-/// A material from a YAML or CSV file; a CSV file must have n.
-fn read_material(path: &Path) -> Result<Material, MediumError> {
-    if !has_ending(path, &["csv", "txt"]) {
+/// A material from a YAML file, a Zemax catalogue or a text table, which must have n.
+fn read_material(path: &Path, glass: Option<&str>) -> Result<Material, MediumError> {
+    if has_ending(path, &["agf"]) {
+        return agf::read(path, glass);
+    }
+    if let Some(glass) = glass {
+        return Err(invalid("glass", glass, "a file that is a Zemax catalogue (.agf)"));
+    }
+    if !has_ending(path, &["csv", "txt", "tsv"]) {
         return refractive_index_info::read(path);
     }
     let table = csv_table::read(path)?;
     let name = name_of(path);
-    if table.n.is_empty() {
-        return Err(MediumError::File {
-            path: path.into(),
-            line: None,
-            message: "no column n; a dye's k goes with a host: { solute = \"FILE.csv\", … }".into(),
-        });
+    if table.n.is_empty() && !table.k.is_empty() {
+        return Err(MediumError::OnlyExtinction { path: path.into() });
     }
-    let n = curve(&table.wavelength, &table.n)?;
-    let k = match table.k.is_empty() {
-        true => None,
-        false => Some(curve(&table.wavelength, &table.k)?),
-    };
-    Material::from_tables(name, table.source, n, k)
+    if table.n.is_empty() {
+        return Err(file_error(path, None, "no column n"));
+    }
+    let mut material = Material::from_curve(name, table.source, table.n.curve());
+    (material.unit, material.notes) = (table.unit, table.notes);
+    Ok(match table.k.is_empty() {
+        true => material,
+        false => material.with_extinction(table.k.curve()),
+    })
 }
 
 fn dye_of_file(path: &Path) -> Result<Dye, MediumError> {
     let table = csv_table::read(path)?;
-    dye(path, table.source, &table.wavelength, &table.k, "k")
+    let (wavelength, k) = table.k.complete()?;
+    dye(path, table.source, (wavelength, k), "k", table.notes.clone())
 }
 
 /// k from decadic absorbance: `A = log10(I0/I)`, `I = I0 exp(−4πkL/λ)`, so `k = A ln(10) λ/4πL`.
@@ -173,23 +173,24 @@ fn dye_of_absorbance(path: &Path, path_mm: f64) -> Result<Dye, MediumError> {
     }
     let table = csv_table::read(path)?;
     let per_wavelength = std::f64::consts::LN_10 / (4.0 * std::f64::consts::PI * path_mm * 1e-3);
-    let rows = table.wavelength.iter().zip(&table.absorbance);
+    let (wavelength, absorbance) = table.absorbance.complete()?;
+    let rows = wavelength.iter().zip(absorbance);
     let k: Vec<f64> = rows.map(|(w, a)| a * per_wavelength * w).collect();
     let source = format!("{} (absorbance over {path_mm} mm)", table.source);
-    dye(path, source, &table.wavelength, &k, "absorbance")
+    dye(path, source, (wavelength, &k), "absorbance", table.notes.clone())
 }
 
 fn dye(
     path: &Path,
     source: String,
-    wavelength: &[f64],
-    k: &[f64],
+    (wavelength, k): (&[f64], &[f64]),
     column: &str,
+    notes: Vec<String>,
 ) -> Result<Dye, MediumError> {
     if k.is_empty() {
         let message = format!("no column {column}");
         return Err(MediumError::File { path: path.into(), line: None, message });
     }
     let name = name_of(path);
-    Ok(Dye { name, source, absorption: Absorption::new(wavelength, k, Tails::Taper)? })
+    Ok(Dye { name, source, absorption: Absorption::new(wavelength, k, Tails::Taper)?, notes })
 }

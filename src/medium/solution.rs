@@ -15,6 +15,8 @@ pub struct Dye {
     pub name: String,
     pub source: String,
     pub absorption: Absorption,
+    /// What the reader of its file changed or left out.
+    pub notes: Vec<String>,
 }
 
 /// A dye in a host.
@@ -69,6 +71,11 @@ impl Solution {
 
     pub fn name(&self) -> String {
         format!("{} {} in {}", self.dye.name, self.fraction, self.host.name())
+    }
+
+    pub(super) fn notes(&self) -> Vec<String> {
+        let own = self.dye.notes.iter().map(|note| format!("{}: {note}", self.dye.name));
+        own.chain(self.host.notes()).collect()
     }
 
     pub fn source(&self) -> String {

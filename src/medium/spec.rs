@@ -6,6 +6,7 @@
 //! medium = { name = "sea-water", temperature_c = 15, salinity_g_kg = 35 }
 //! medium = { index = [1.333, 0.0] }                      # n and k; or index = 1.333
 //! medium = { file = "glass.yml", extrapolate = true }    # refractiveindex.info YAML, or CSV
+//! medium = { file = "schott.agf", glass = "N-BK7" }      # a glass of a Zemax catalogue
 //! medium = { sellmeier = { b = [1.03961212, 0.231792344, 1.01046945], c_um2 = [0.00600069867, 0.0200179144, 103.560653] } }
 //! medium = { cauchy = [1.5046, 0.00420] }                # A, B (µm²), C (µm⁴), …
 //! medium = { abbe = [1.5168, 64.17], line = "d" }        # d (default), D or e
@@ -23,13 +24,38 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, PartialEq)]
 pub enum MediumSpec {
     Named(NamedSpec),
-    Index { n: f64, k: f64 },
-    File { path: PathBuf, extrapolate: bool },
-    Sellmeier { b: Vec<f64>, c_um2: Vec<f64> },
+    Index {
+        n: f64,
+        k: f64,
+    },
+    /// A file of optical data; `glass` is the name in a catalogue of several.
+    File {
+        path: PathBuf,
+        glass: Option<String>,
+        extrapolate: bool,
+    },
+    Sellmeier {
+        b: Vec<f64>,
+        c_um2: Vec<f64>,
+    },
     Cauchy(Vec<f64>),
-    Abbe { index: f64, number: f64, line: AbbeLines },
-    Solution { solute: String, fraction: f64, host: Box<MediumSpec>, dispersion: bool },
-    Absorbance { path: PathBuf, path_mm: f64, host: Box<MediumSpec>, dispersion: bool },
+    Abbe {
+        index: f64,
+        number: f64,
+        line: AbbeLines,
+    },
+    Solution {
+        solute: String,
+        fraction: f64,
+        host: Box<MediumSpec>,
+        dispersion: bool,
+    },
+    Absorbance {
+        path: PathBuf,
+        path_mm: f64,
+        host: Box<MediumSpec>,
+        dispersion: bool,
+    },
 }
 
 /// A name in the library with the conditions that go with it.
@@ -48,8 +74,8 @@ impl MediumSpec {
         Self::Named(NamedSpec { name: name.into(), ..NamedSpec::default() })
     }
 
-    /// Reads what a user typed: a name, a path of a `.yml`, `.yaml` or `.csv` file, or a TOML
-    /// table in braces.
+    /// Reads what a user typed: a name, a path of a file of optical data (`.yml`, `.yaml`, `.csv`,
+    /// `.txt`, `.tsv`, `.agf`, or `CATALOGUE.agf:GLASS`), or a TOML table in braces.
     pub fn parse(text: &str) -> Result<Self, MediumError> {
         let text = text.trim();
         if text.starts_with('{') {
@@ -61,8 +87,18 @@ impl MediumSpec {
                 .map_err(|e| invalid("medium", text, &format!("a TOML table: {}", e.message())))?;
             return Ok(holder.medium);
         }
-        if has_ending(Path::new(text), &["yml", "yaml", "csv"]) {
-            return Ok(Self::File { path: text.into(), extrapolate: false });
+        let file = |path: &str, glass: Option<&str>| Self::File {
+            path: path.into(),
+            glass: glass.map(str::to_string),
+            extrapolate: false,
+        };
+        if has_ending(Path::new(text), &["yml", "yaml", "csv", "txt", "tsv", "agf"]) {
+            return Ok(file(text, None));
+        }
+        if let Some((path, glass)) = text.rsplit_once(':')
+            && has_ending(Path::new(path), &["agf"])
+        {
+            return Ok(file(path, Some(glass)));
         }
         Ok(Self::name(text))
     }

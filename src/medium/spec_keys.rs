@@ -26,6 +26,8 @@ struct Keys {
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<PathBuf>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    glass: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     cauchy: Option<Vec<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     abbe: Option<[f64; 2]>,
@@ -84,8 +86,9 @@ impl MediumSpec {
             Self::Index { n, k } => {
                 Keys { index: Some(IndexKey::Complex([n, k])), ..Keys::default() }
             }
-            Self::File { path, extrapolate } => Keys {
+            Self::File { path, glass, extrapolate } => Keys {
                 file: Some(path),
+                glass,
                 extrapolate: extrapolate.then_some(true),
                 ..Keys::default()
             },
@@ -148,7 +151,7 @@ fn kind(keys: &mut Keys) -> Result<MediumSpec, String> {
     }
     if let Some(path) = keys.file.take() {
         let extrapolate = keys.extrapolate.take().unwrap_or(false);
-        return Ok(MediumSpec::File { path, extrapolate });
+        return Ok(MediumSpec::File { path, glass: keys.glass.take(), extrapolate });
     }
     if let Some(SellmeierKeys { b, c_um2 }) = keys.sellmeier.take() {
         return Ok(MediumSpec::Sellmeier { b, c_um2 });
@@ -186,6 +189,7 @@ fn leftover(keys: &Keys) -> Option<&'static str> {
         ("salinity_g_kg", keys.salinity_g_kg.is_some()),
         ("index", keys.index.is_some()),
         ("file", keys.file.is_some()),
+        ("glass", keys.glass.is_some()),
         ("sellmeier", keys.sellmeier.is_some()),
         ("cauchy", keys.cauchy.is_some()),
         ("abbe", keys.abbe.is_some()),

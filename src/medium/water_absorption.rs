@@ -46,7 +46,7 @@ fn share_of_inner(wavelength: f64) -> f64 {
 }
 
 fn logarithm(table: &super::Table) -> MonotoneCurve {
-    let logs = table.k.iter().map(|k| k.ln()).collect();
-    MonotoneCurve::new(table.wavelength.clone(), logs)
+    let logs = table.k.value.iter().map(|k| k.ln()).collect();
+    MonotoneCurve::new(table.k.wavelength.clone(), logs)
         .expect("the shipped tables are sound: a test reads them")
 }

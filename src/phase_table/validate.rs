@@ -1,12 +1,22 @@
-//! What a sound table is: axes that ascend, finite values, S11 ≥ |Sij|, a sum of 1.
+//! What a sound table is: axes that ascend, finite values, S11 ≥ |Sij|, a sum of 1, extinction that is
+//! scattering and absorption and what the wave straight ahead lacks. The same check judges a table
+//! that is to be written and one that was read.
 
-use super::{Axes, ForwardPeak, PhaseTable, Slab, TableHeader};
+use super::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
 use std::f64::consts::{PI, TAU};
 
 /// How far an element may exceed S11, relative: rounding to `f32` of both.
 const ELEMENT_TOLERANCE: f64 = 1e-5;
 /// How far Σ P·ΔΩ may be from 1 where the table covers the sphere.
 const NORMALISATION_TOLERANCE: f64 = 1e-3;
+/// How far extinction may be from scattering and absorption, relative: rounding.
+const BALANCE_TOLERANCE: f64 = 1e-6;
+/// How far extinction may be from the optical theorem on the amplitude straight ahead, relative: two
+/// ways to one number, which differ by interpolation over azimuth at most.
+const FORWARD_TOLERANCE: f64 = 1e-3;
+/// How far the fates of light may be from adding up to 1: what the main path accepts of rays, and the
+/// power that an absorbing interface mixes.
+const BUDGET_TOLERANCE: f64 = 1e-6;
 
 /// What is wrong with a table or its header: the field, the value, what is accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -17,7 +27,7 @@ pub struct InvalidTable {
     pub accepted: String,
 }
 
-fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
+pub(super) fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
     InvalidTable { field: field.into(), value: value.to_string(), accepted: accepted.into() }
 }
 
@@ -61,7 +71,15 @@ impl TableHeader {
             let accepted = "one azimuth where the scattering does not depend on it";
             return Err(invalid("phi", format!("{} azimuths", self.axes.phi.len()), accepted));
         }
-        Ok(())
+        let averaging = &self.averaging;
+        for (field, value) in
+            [("bandwidth_nm", averaging.bandwidth), ("filter_standard_deviation", averaging.filter)]
+        {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(invalid(field, value, "a finite number, 0 or more"));
+            }
+        }
+        self.bodies.as_ref().map_or(Ok(()), |bodies| bodies.validate())
     }
 }
 
@@ -98,34 +116,120 @@ impl Slab {
                 return Err(invalid("S11", value, &format!("not negative {}", place(i, j))));
             }
         }
-        self.validate_numbers(header)
+        self.validate_numbers(header, rounding)
     }
 
-    fn validate_numbers(&self, header: &TableHeader) -> Result<(), InvalidTable> {
-        let (scattering, extinction) =
-            (self.scattering_cross_section, self.extinction_cross_section);
-        if !(scattering.is_finite() && scattering > 0.0) {
-            return Err(invalid("scattering_cross_section", scattering, "a positive area in m²"));
+    fn validate_numbers(&self, header: &TableHeader, rounding: f64) -> Result<(), InvalidTable> {
+        let nm = self.wavelength * 1e9;
+        let within = |field: &str, value: f64, range: std::ops::RangeInclusive<f64>| {
+            if range.contains(&value) {
+                return Ok(());
+            }
+            let accepted = format!("{} to {} at {nm} nm", range.start(), range.end());
+            Err(invalid(field, value, &accepted))
+        };
+        if !(self.index.is_finite() && self.index.re > 0.0 && self.index.im >= 0.0) {
+            return Err(invalid("refractive index", self.index, "n + ik with n > 0 and k ≥ 0"));
         }
-        if !(extinction.is_finite() && extinction >= scattering * (1.0 - 1e-6)) {
-            let accepted = "at least the scattering cross-section";
-            return Err(invalid("extinction_cross_section", extinction, accepted));
+        self.validate_sections()?;
+        within("asymmetry", self.asymmetry, -1.0..=1.0)?;
+        within("peak_share", self.peak_share, 0.0..=1.0)?;
+        within("left_out_share", self.left_out, 0.0..=1.0)?;
+        for (field, error) in [
+            ("error_estimate", self.error_estimate),
+            ("error_estimate_by_band", self.error_by_band),
+        ] {
+            // Methods without an estimate say NaN.
+            if error < 0.0 || error.is_infinite() {
+                return Err(invalid(field, error, "a finite number, 0 or more, or none"));
+            }
         }
-        if !(-1.0..=1.0).contains(&self.asymmetry) {
-            return Err(invalid("asymmetry", self.asymmetry, "from −1 to 1"));
+        let stated = self.error_by_direction.iter();
+        if let Some(error) = stated.copied().find(|error| *error < 0.0 || error.is_infinite()) {
+            let accepted = "finite numbers, 0 or more, or none";
+            return Err(invalid("error_estimate_by_direction", error, accepted));
+        }
+        if let Some(energy) = &self.energy {
+            energy.validate(self.index.im)?;
         }
         let expected = match header.forward_peak {
-            ForwardPeak::CellAverage => 1.0,
-            ForwardPeak::Separate => 1.0 - self.peak_share,
+            ForwardPeak::CellAverage => 1.0 - self.left_out,
+            ForwardPeak::Separate => 1.0 - self.peak_share - self.left_out,
             ForwardPeak::Point => return Ok(()),
         };
         let sum = self.sum(&header.axes);
-        if header.axes.cover_sphere() && (sum - expected).abs() > NORMALISATION_TOLERANCE {
-            let accepted = format!(
-                "{expected:.6} ± {NORMALISATION_TOLERANCE} at {} nm",
-                self.wavelength * 1e9
-            );
+        let slack = NORMALISATION_TOLERANCE + rounding;
+        if header.axes.cover_sphere() && !((sum - expected).abs() <= slack) {
+            let accepted = format!("{expected:.6} ± {slack} at {nm} nm");
             return Err(invalid("sum of P times solid angle", sum, &accepted));
+        }
+        Ok(())
+    }
+
+    /// Cross-sections: positive, in balance, and as the wave straight ahead says.
+    fn validate_sections(&self) -> Result<(), InvalidTable> {
+        let nm = self.wavelength * 1e9;
+        let (scattering, extinction) =
+            (self.scattering_cross_section, self.extinction_cross_section);
+        if !(scattering.is_finite() && scattering > 0.0) {
+            let accepted = "a positive area in m²";
+            return Err(invalid("scattering_cross_section", format!("{scattering:e}"), accepted));
+        }
+        let slack = BALANCE_TOLERANCE * scattering.abs();
+        if !(extinction.is_finite() && extinction >= scattering - slack) {
+            let accepted = format!("at least the scattering cross-section {scattering:e} m²");
+            return Err(invalid("extinction_cross_section", format!("{extinction:e}"), &accepted));
+        }
+        let absorption = self.absorption_cross_section;
+        if !(absorption.is_finite() && absorption >= -slack) {
+            let accepted = "an area in m², 0 or more";
+            return Err(invalid("absorption_cross_section", format!("{absorption:e}"), accepted));
+        }
+        let lost = extinction - scattering - absorption;
+        if lost.abs() > BALANCE_TOLERANCE * extinction {
+            let accepted =
+                format!("scattering {scattering:e} + absorption {absorption:e} m² at {nm} nm");
+            return Err(invalid("extinction_cross_section", format!("{extinction:e}"), &accepted));
+        }
+        match self.forward_extinction {
+            Some(forward)
+                if !((extinction - forward).abs() <= FORWARD_TOLERANCE * forward.abs()) =>
+            {
+                let accepted = format!(
+                    "{forward:e} m² ± {FORWARD_TOLERANCE} of it, by the optical theorem on the \
+                     amplitude straight ahead at {nm} nm"
+                );
+                Err(invalid("extinction_cross_section", format!("{extinction:e}"), &accepted))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl EnergyBudget {
+    /// Shares from 0 to 1 that add up to 1, for a medium of this `k`.
+    ///
+    /// # Errors
+    /// The first share that is none, or the sum.
+    fn validate(&self, k: f64) -> Result<(), InvalidTable> {
+        let chords = self.left_by_order.len() as f64;
+        let slack = BUDGET_TOLERANCE + chords * k;
+        let inside = [
+            ("energy_absorbed", self.absorbed),
+            ("energy_totally_reflected", self.totally_reflected),
+            ("energy_truncated", self.truncated),
+        ];
+        let left = self.left_by_order.iter().map(|share| ("energy_left_by_order", *share));
+        let mut sum = self.residual;
+        for (field, share) in inside.into_iter().chain(left) {
+            if !(-slack..=1.0 + slack).contains(&share) {
+                return Err(invalid(field, share, "0 to 1, per power on the silhouette"));
+            }
+            sum += share;
+        }
+        if !(self.residual.abs() <= slack && (sum - 1.0).abs() <= slack) {
+            let accepted = format!("fates of light that add up to 1 ± {slack:e}");
+            return Err(invalid("sum of the energy budget", sum, &accepted));
         }
         Ok(())
     }
@@ -151,5 +255,99 @@ impl PhaseTable {
             }
             slab.validate(&self.header, 0.0)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase_table::{Averaging, Quantity};
+    use ndarray::Array3;
+    use num_complex::Complex64;
+
+    /// Isotropic scattering, a third absorbed.
+    fn sound() -> (TableHeader, Slab) {
+        let theta: Vec<f64> = (0..=180).map(|i| PI * f64::from(i) / 180.0).collect();
+        let header = TableHeader {
+            axes: Axes { wavelength: vec![5e-7], theta, phi: vec![0.0] },
+            quantity: Quantity::PhaseFunction,
+            forward_peak: ForwardPeak::CellAverage,
+            rotational_symmetry: true,
+            method: "mie".into(),
+            shape: "sphere".into(),
+            radius: 1e-6,
+            sun_elevation: 0.0,
+            bodies: None,
+            averaging: Averaging::default(),
+            tolerance: 0.01,
+            scene_toml: String::new(),
+            command_line: String::new(),
+        };
+        let slab = Slab {
+            wavelength: 5e-7,
+            index: Complex64::new(1.33, 0.01),
+            values: Array3::from_elem((1, 181, 1), (0.25 / PI) as f32),
+            caustic_order: None,
+            scattering_cross_section: 2e-12,
+            extinction_cross_section: 3e-12,
+            absorption_cross_section: 1e-12,
+            forward_extinction: Some(3e-12),
+            asymmetry: 0.0,
+            energy: None,
+            sum_before_peak: 1.0,
+            peak_share: 0.0,
+            error_estimate: f64::NAN,
+            error_by_band: f64::NAN,
+            error_by_direction: [f64::NAN; crate::phase_table::ERROR_BANDS],
+            left_out: 0.0,
+            tolerance_met: None,
+        };
+        (header, slab)
+    }
+
+    #[test]
+    fn whatever_is_wrong_is_named() {
+        let (header, slab) = sound();
+        slab.validate(&header, 0.0).unwrap();
+        let cases: [(&str, fn(&mut Slab)); 12] = [
+            ("asymmetry = NaN", |s| s.asymmetry = f64::NAN),
+            ("asymmetry = 1.1", |s| s.asymmetry = 1.1),
+            ("extinction_cross_section = 3.1e-12", |s| s.extinction_cross_section = 3.1e-12),
+            // The spheroid of the bug report: 2.169 against 1.961.
+            ("extinction_cross_section", |s| s.forward_extinction = Some(2.71e-12)),
+            ("extinction_cross_section", |s| s.forward_extinction = Some(f64::NAN)),
+            ("extinction_cross_section", |s| s.extinction_cross_section = 1e-12),
+            ("absorption_cross_section", |s| s.absorption_cross_section = -1e-13),
+            ("scattering_cross_section", |s| s.scattering_cross_section = -5.5e124),
+            ("sum of P", |s| s.values *= 1.01),
+            ("phase function = NaN", |s| s.values[(0, 3, 0)] = f32::NAN),
+            ("peak_share", |s| s.peak_share = 1.5),
+            ("error_estimate", |s| s.error_estimate = f64::INFINITY),
+        ];
+        for (expected, spoil) in cases {
+            let mut wrong = slab.clone();
+            spoil(&mut wrong);
+            let error = wrong.validate(&header, 0.0).unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{expected}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_budget_that_loses_light_is_wrong() {
+        let (header, mut slab) = sound();
+        slab.index.im = 0.0;
+        let budget = EnergyBudget {
+            left_by_order: vec![0.1, 0.5],
+            absorbed: 0.3,
+            totally_reflected: 0.0,
+            truncated: 0.1,
+            residual: 0.0,
+        };
+        slab.energy = Some(budget.clone());
+        slab.validate(&header, 0.0).unwrap();
+        slab.energy = Some(EnergyBudget { absorbed: 0.2, ..budget.clone() });
+        assert!(slab.validate(&header, 0.0).is_err());
+        slab.energy = Some(EnergyBudget { absorbed: -0.3, residual: 0.6, ..budget });
+        assert!(slab.validate(&header, 0.0).is_err());
     }
 }

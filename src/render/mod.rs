@@ -9,6 +9,8 @@ pub mod camera;
 mod color_diagram;
 mod directions;
 #[cfg(feature = "pictures")]
+mod error_strip;
+#[cfg(feature = "pictures")]
 mod font;
 #[cfg(feature = "pictures")]
 mod heat_map;

@@ -1,12 +1,14 @@
 //! Preview of a table: the phase function over the sphere of directions, curves through it, and
 //! the colours of its bow.
 
+use super::error_strip;
 use super::heat_map::power_of_ten;
 use super::{
     DirectionGrid, FONT, Picture, RenderError, Tristimulus, colour_bar, draw_pixels, ensure_font,
     rotational_xyz,
 };
 use crate::color::{Illuminant, Observer, SUN_ANGULAR_RADIUS, SunDisc, to_srgb, wavelength_srgb};
+use crate::math::digits::to_digits;
 use crate::phase_table::{PhaseTable, Slab};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -68,9 +70,9 @@ fn draw_title(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     let sun = if header.rotational_symmetry {
         String::new()
     } else {
-        format!(", sun at {}°", (header.sun_elevation.to_degrees() * 1e3).round() * 1e-3)
+        format!(", sun at {}°", to_digits(header.sun_elevation.to_degrees(), 6))
     };
-    let radius = (header.radius * 1e9).round() * 1e-6;
+    let radius = to_digits(header.radius * 1e3, 6);
     let title = format!("Phase function of a {} of radius {radius} mm{sun}", header.shape);
     area.draw(&Text::new(title, (20, 10), (FONT, 24).into_font().color(&BLACK)))?;
     let axis = &header.axes;
@@ -128,8 +130,8 @@ fn draw_sphere(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         .y_desc("azimuth φ (°), 0 = up")
         .x_labels(19)
         .y_labels(9)
-        .x_label_formatter(&|v| format!("{v:.0}"))
-        .y_label_formatter(&|v| format!("{v:.0}"))
+        .x_label_formatter(&labels_over(&x, 19))
+        .y_label_formatter(&labels_over(&y, 9))
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
         .draw()?;
@@ -187,9 +189,16 @@ fn curves(table: &PhaseTable) -> Vec<Curve> {
 fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     let axes = &table.header.axes;
     let curves = curves(table);
+    let errors = error_strip::steps(table);
+    let height = area.dim_in_pixel().1;
+    let (area, strip) =
+        area.split_vertically(if errors.is_empty() { height } else { height * 3 / 4 });
+    if !errors.is_empty() {
+        error_strip::draw(&strip, errors, degrees(&axes.theta))?;
+    }
     let y = log_range(curves.iter().flat_map(|c| c.points.iter().map(|p| 10f64.powf(p.1))), 1.0);
-    let mut chart = ChartBuilder::on(area)
-        .caption("phase function by scattering angle", (FONT, 16))
+    let mut chart = ChartBuilder::on(&area)
+        .caption("phase function by scattering angle, and the stated error", (FONT, 16))
         .margin(12)
         .x_label_area_size(42)
         .y_label_area_size(64)
@@ -200,9 +209,9 @@ fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
         .bold_line_style(RGBColor(225, 225, 225))
         .x_desc("scattering angle θ (°)")
         .y_desc("P (sr⁻¹)")
-        .x_label_formatter(&|v| format!("{v:.0}"))
+        .x_label_formatter(&labels_over(&degrees(&axes.theta), TICKS))
         .y_labels((y.end - y.start) as usize + 2)
-        .y_label_formatter(&|v| power_of_ten(v.round() as i32))
+        .y_label_formatter(&|v| decade_label(*v))
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
         .draw()?;
@@ -300,14 +309,15 @@ fn draw_bow(area: &Area<'_>, panel: BowPanel) -> Result<(), RenderError> {
     draw_pixels(&chart, (theta.start, y.end), |along, up| {
         to_srgb(color(within(&theta, along), within(&y, up)), exposure)
     })?;
+    let (bow_label, azimuth_label) = (labels_over(&theta, TICKS), labels_over(&y, TICKS));
     let mut mesh = chart.configure_mesh();
     mesh.disable_mesh()
         .x_desc("scattering angle θ (°)")
-        .x_label_formatter(&|v| format!("{v:.0}"))
+        .x_label_formatter(&bow_label)
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16));
     if phi.is_some() {
-        mesh.y_desc("azimuth φ (°), 0 = up").y_label_formatter(&|v| format!("{v:.0}"));
+        mesh.y_desc("azimuth φ (°), 0 = up").y_label_formatter(&azimuth_label);
     } else {
         mesh.disable_y_axis();
     }
@@ -330,6 +340,27 @@ fn mean_over_wavelengths(table: &PhaseTable) -> Vec<f64> {
         }
     }
     mean
+}
+
+/// Labels that plotters puts on an axis unless told otherwise, at most.
+const TICKS: usize = 10;
+
+/// Labels of an axis with so many ticks at most: as many decimals as tell the ticks apart.
+fn labels_over(range: &Range<f64>, ticks: usize) -> impl Fn(&f64) -> String {
+    let step = (range.end - range.start) / ticks as f64;
+    let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
+    move |value| format!("{value:.decimals$}")
+}
+
+/// The label of a power of ten, or of what lies between two.
+fn decade_label(exponent: f64) -> String {
+    match exponent.round() {
+        whole if (exponent - whole).abs() < 1e-6 => power_of_ten(whole as i32),
+        _ => match to_digits(10f64.powf(exponent), 2) {
+            plain if (0.01..1000.0).contains(&plain) => plain.to_string(),
+            other => format!("{other:e}"),
+        },
+    }
 }
 
 fn degrees(axis: &[f64]) -> Range<f64> {

@@ -236,6 +236,9 @@ impl Mixture {
         let total: f64 = drops.iter().map(|d| d.number * cross_section(d.table)).sum();
         let elements: &[usize] = if sky.polariser.is_some() { &[0, 4, 8] } else { &[0] };
         let kind_of = |kind: &Drops<'_>, mu: Option<f64>, smooth: bool| {
+            // A table that is a mean over the disc is not smoothed again.
+            let smoothed = kind.table.header.averaging.has_sun_disc();
+            let radius = if smoothed { 0.0 } else { radius };
             let stokes = elements.iter().map(|&element| {
                 if smooth {
                     Tristimulus::smoothed(kind.table, element, sky.illuminant, sky.observer, radius)
@@ -308,6 +311,10 @@ fn check(sky: &Sky, drops: &[Drops<'_>]) -> Result<(), RenderError> {
             return invalid("filter.polariser_deg", "given".into(), accepted);
         }
         let off = (header.sun_elevation - sky.sun_elevation).abs();
+        if header.averaging.has_sun_disc() && !header.rotational_symmetry {
+            let accepted = "a table of a point-like sun: a picture smooths over the disc itself";
+            return invalid("averaged_over_sun_disc", header.shape.clone(), accepted);
+        }
         if !header.rotational_symmetry && off > 0.1 * TAU / 360.0 {
             let value = format!("{:.2}", sky.sun_elevation.to_degrees());
             let accepted = format!(

@@ -49,6 +49,9 @@ pub struct ParticleKeys {
     pub temperature_c: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub medium: Option<MediumSpec>,
+    /// Density of the medium, where the library does not know it or it is another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density_kg_m3: Option<f64>,
 }
 
 /// `[light]`: what shines on it.
@@ -101,6 +104,9 @@ pub struct ModelKeys {
     /// Rays across the silhouette; absent: chosen from the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rays_across: Option<u32>,
+    /// A mean that does not meet the tolerance makes a table that says so, in place of a failure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub allow_unmet_tolerance: Option<bool>,
 }
 
 /// Known keys by section, in the order of the structs above (a test compares the two).
@@ -117,11 +123,23 @@ pub(super) const KEYS: [(&str, &[&str]); 4] = [
             "model",
             "temperature_c",
             "medium",
+            "density_kg_m3",
         ],
     ),
     ("light", &["sun_elevation_deg", "wavelengths_nm", "bandwidth_nm", "sun_disc"]),
     ("table", &["quantity", "forward_peak", "bit_round", "theta_deg", "azimuth_deg"]),
-    ("model", &["method", "interference", "diffraction", "orders", "tolerance", "rays_across"]),
+    (
+        "model",
+        &[
+            "method",
+            "interference",
+            "diffraction",
+            "orders",
+            "tolerance",
+            "rays_across",
+            "allow_unmet_tolerance",
+        ],
+    ),
 ];
 
 impl SceneFile {
@@ -155,7 +173,7 @@ impl ParticleKeys {
             (self.axis_ratio, self.model) = (None, None);
         }
         if flags.medium.is_some() {
-            self.temperature_c = None;
+            (self.temperature_c, self.density_kg_m3) = (None, None);
         }
         ParticleKeys {
             shape: flags.shape.or(self.shape),
@@ -167,6 +185,7 @@ impl ParticleKeys {
             model: flags.model.or(self.model),
             temperature_c: flags.temperature_c.or(self.temperature_c),
             medium: flags.medium.clone().or(self.medium),
+            density_kg_m3: flags.density_kg_m3.or(self.density_kg_m3),
         }
     }
 }
@@ -195,7 +214,12 @@ impl TableKeys {
 }
 
 impl ModelKeys {
-    fn overridden_by(self, flags: &ModelKeys) -> ModelKeys {
+    fn overridden_by(mut self, flags: &ModelKeys) -> ModelKeys {
+        // Another method replaces what goes with rays alone.
+        let series = [Some(Choice(Method::Mie)), Some(Choice(Method::Debye))];
+        if series.contains(&flags.method) && flags.method != self.method {
+            (self.interference, self.diffraction, self.rays_across) = (None, None, None);
+        }
         ModelKeys {
             method: flags.method.or(self.method),
             interference: flags.interference.or(self.interference),
@@ -203,6 +227,7 @@ impl ModelKeys {
             orders: flags.orders.clone().or(self.orders),
             tolerance: flags.tolerance.or(self.tolerance),
             rays_across: flags.rays_across.or(self.rays_across),
+            allow_unmet_tolerance: flags.allow_unmet_tolerance.or(self.allow_unmet_tolerance),
         }
     }
 }

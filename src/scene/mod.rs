@@ -34,7 +34,7 @@ pub(crate) use read::{line_at, read_limited};
 pub use size::{TableSize, human_bytes};
 pub use sizes::SizeKeys;
 
-use crate::medium::Medium;
+use crate::medium::{Density, Medium};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use crate::size_distribution::SizeDistribution;
@@ -108,6 +108,8 @@ pub struct Scene {
     /// Many spheres in place of one.
     pub size_distribution: Option<SizeDistribution>,
     pub medium: Medium,
+    /// Of the medium, where it is known.
+    pub density: Option<Density>,
     pub sun_elevation: f64,
     pub wavelengths: Vec<f64>,
     /// Full width at half maximum of the band that each wavelength stands for; 0: none.
@@ -124,6 +126,8 @@ pub struct Scene {
     pub diffraction: Diffraction,
     pub orders: Orders,
     pub tolerance: f64,
+    /// A mean that misses the tolerance is marked in the table rather than a failure.
+    pub allow_unmet_tolerance: bool,
     /// Rays across the silhouette; `None`: chosen from the tolerance.
     pub rays_across: Option<usize>,
     /// The scene resolved, as TOML, for the record.

@@ -4,7 +4,7 @@ use super::Particle;
 use super::choice::{Named, ShapeName, chosen};
 use super::error::SceneError;
 use super::file::ParticleKeys;
-use crate::medium::{Medium, MediumSpec};
+use crate::medium::{Density, Medium, MediumSpec};
 use crate::shape::RaindropModel;
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
@@ -143,16 +143,8 @@ pub(super) fn medium_of(
     wavelengths: &[f64],
 ) -> Result<Medium, SceneError> {
     const KEY: &str = "particle.medium";
-    let mut spec = keys.medium.clone().unwrap_or_default();
-    match (&mut spec, keys.temperature_c) {
-        (MediumSpec::Named(named), Some(celsius)) => named.temperature_c = Some(celsius),
-        (_, Some(celsius)) => {
-            let accepted = "only a medium of the library has a temperature";
-            return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));
-        }
-        (_, None) => {}
-    }
-    let medium = spec.resolve(folder).map_err(|source| SceneError::medium(KEY, source))?;
+    let medium =
+        spec_of(keys)?.resolve(folder).map_err(|source| SceneError::medium(KEY, source))?;
     for wavelength in wavelengths {
         let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
         if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {
@@ -164,4 +156,69 @@ pub(super) fn medium_of(
         }
     }
     Ok(medium)
+}
+
+/// The medium as written, with the temperature that may stand beside it.
+fn spec_of(keys: &ParticleKeys) -> Result<MediumSpec, SceneError> {
+    let mut spec = keys.medium.clone().unwrap_or_default();
+    match (&mut spec, keys.temperature_c) {
+        (MediumSpec::Named(named), Some(celsius)) => {
+            if let Some(own) = named.temperature_c.filter(|own| *own != celsius) {
+                let accepted = format!("the medium itself says {own}; give one of the two");
+                return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));
+            }
+            named.temperature_c = Some(celsius);
+        }
+        (_, Some(celsius)) => {
+            let accepted = "only a medium of the library has a temperature";
+            return Err(SceneError::invalid("particle.temperature_c", celsius, accepted));
+        }
+        (_, None) => {}
+    }
+    Ok(spec)
+}
+
+/// Densities of the medium, kg/m³: from gases to osmium.
+const DENSITIES: std::ops::RangeInclusive<f64> = 1e-3..=3e4;
+/// A constant index that is water's within this at every wavelength is taken for water's.
+const LIKE_WATER: f64 = 0.012;
+
+/// The density of the medium: the one given, or the library's. A constant index that is that of water
+/// stands for water, and the source says that this is assumed.
+pub(super) fn density_of(
+    keys: &ParticleKeys,
+    wavelengths: &[f64],
+) -> Result<Option<Density>, SceneError> {
+    const KEY: &str = "particle.density_kg_m3";
+    let spec = spec_of(keys)?;
+    let given_with_medium = match &spec {
+        MediumSpec::Named(named) => named.density_kg_m3,
+        _ => None,
+    };
+    match (keys.density_kg_m3, given_with_medium) {
+        (Some(density), _) if !DENSITIES.contains(&density) => {
+            let accepted = format!("{} to {} kg/m³", DENSITIES.start(), DENSITIES.end());
+            Err(SceneError::invalid(KEY, density, accepted))
+        }
+        (Some(density), Some(other)) if density != other => {
+            let accepted = format!("the medium has density_kg_m3 = {other}; keep one of the two");
+            Err(SceneError::invalid(KEY, density, accepted))
+        }
+        (Some(kg_m3), _) => Ok(Some(Density { kg_m3, source: "given".into() })),
+        (None, _) => match &spec {
+            MediumSpec::Index { n, k } if is_like_water(*n, *k, wavelengths) => {
+                let source = format!("assumed: the index {n} is that of water");
+                Ok(Some(Density { kg_m3: 1000.0, source }))
+            }
+            spec => spec.density().map_err(|error| SceneError::medium("particle.medium", error)),
+        },
+    }
+}
+
+fn is_like_water(n: f64, k: f64, wavelengths: &[f64]) -> bool {
+    let water = Medium::Water { temperature: 293.15 };
+    wavelengths.iter().all(|wavelength| {
+        let close = |m: num_complex::Complex64| (m.re - n).hypot(m.im - k) <= LIKE_WATER;
+        water.index(*wavelength).is_ok_and(close)
+    })
 }

@@ -17,19 +17,6 @@ pub struct TableSize {
     pub total_bytes: u64,
 }
 
-impl TableSize {
-    /// Memory that a table takes while it is made, bytes: one slab being computed, one waiting, one
-    /// being written; per direction the amplitudes of both polarisations and sums in double
-    /// precision; and what does not grow with the table: rays, patches, the program itself. The
-    /// number of wavelengths does not matter.
-    pub fn working_memory(&self) -> u64 {
-        const SLABS: u64 = 3;
-        const BYTES_PER_DIRECTION: u64 = 96;
-        const REST: u64 = 300 << 20;
-        SLABS * self.slab_bytes + BYTES_PER_DIRECTION * self.directions + REST
-    }
-}
-
 impl Scene {
     /// Size of the table. A scene without azimuth dependence takes less: one azimuth stands for
     /// all of them.

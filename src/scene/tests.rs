@@ -67,6 +67,7 @@ fn known_keys_are_those_of_the_structs() {
             axis_ratio: Some(1.0),
             model: Some(Choice(RaindropModel::BeardChuang1987)),
             temperature_c: Some(20.0),
+            density_kg_m3: Some(1000.0),
             medium: Some(MediumSpec::default()),
         },
         light: LightKeys {
@@ -89,6 +90,7 @@ fn known_keys_are_those_of_the_structs() {
             orders: Some(Orders::Auto),
             tolerance: Some(0.1),
             rays_across: Some(10),
+            allow_unmet_tolerance: Some(true),
         },
     };
     let table = toml::Table::try_from(&full).unwrap();

@@ -4,7 +4,7 @@ use super::choice::{Choice, Named, ShapeName, chosen};
 use super::error::SceneError;
 use super::file::SceneFile;
 use super::grid::Grid;
-use super::particle::{medium_of, particle_of, size_distribution};
+use super::particle::{density_of, medium_of, particle_of, size_distribution};
 use super::{Diffraction, Method, Orders, Particle, Scene, SunDisc};
 use crate::medium::MediumSpec;
 use crate::phase_table::{ForwardPeak, Quantity};
@@ -39,6 +39,7 @@ impl SceneFile {
         let scene = Scene {
             particle: particle_of(particle)?,
             size_distribution: size_distribution(particle)?,
+            density: density_of(particle, &wavelengths)?,
             medium: medium_of(particle, folder, &wavelengths)?,
             bandwidth: bandwidth(light.bandwidth_nm, &wavelengths)?,
             sun_disc: chosen(light.sun_disc, "light.sun_disc")?,
@@ -54,6 +55,7 @@ impl SceneFile {
             diffraction: chosen(model.diffraction, "model.diffraction")?,
             orders: orders(model.orders.as_ref())?,
             tolerance: tolerance(model.tolerance)?,
+            allow_unmet_tolerance: model.allow_unmet_tolerance.unwrap_or(false),
             rays_across: rays_across(model.rays_across)?,
             toml: resolved.to_toml(),
         };
@@ -222,10 +224,32 @@ impl Scene {
                 "the exact series are for spheres; other shapes take \"rays\" or \"auto\"";
             return Err(SceneError::invalid("model.method", self.method.name(), accepted));
         }
-        if let (Method::Mie, Orders::List(list)) = (self.method, &self.orders) {
-            let accepted =
-                "Lorenz–Mie has all orders at once; method = \"debye\" or \"rays\" takes a list";
-            return Err(SceneError::invalid("model.orders", format!("{list:?}"), accepted));
+        let sphere = matches!(self.particle, Particle::Sphere { .. });
+        let mie = self.method == Method::Mie || (self.method == Method::Auto && sphere);
+        if !mie && self.method != Method::Debye {
+            return Ok(());
+        }
+        // What Lorenz–Mie (also by "auto" of a sphere) and the sum of Debye terms know nothing of.
+        let refuse = |key: &str, value: String, accepted: &str| {
+            let method = format!("with method = \"{}\"", self.method.name());
+            Err(SceneError::invalid(key, format!("{value} {method}"), accepted))
+        };
+        if let (true, Orders::List(list)) = (mie, &self.orders) {
+            let accepted = "Lorenz–Mie, which \"auto\" takes for a sphere, has all orders at once; \
+                            method = \"debye\" or \"rays\" takes a list";
+            return refuse("model.orders", format!("{list:?}"), accepted);
+        }
+        if let Some(rays) = self.rays_across {
+            let accepted = "an exact series has no rays; method = \"rays\" takes it";
+            return refuse("model.rays_across", rays.to_string(), accepted);
+        }
+        if self.diffraction != Diffraction::Airy {
+            let accepted = "an exact series has its own diffraction; method = \"rays\" takes it";
+            return refuse("model.diffraction", self.diffraction.name().into(), accepted);
+        }
+        if !self.interference {
+            let accepted = "an exact series adds waves; method = \"rays\" can leave that out";
+            return refuse("model.interference", "false".into(), accepted);
         }
         Ok(())
     }

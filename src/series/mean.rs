@@ -39,6 +39,11 @@ pub enum MeanError {
          smaller particles or a larger tolerance"
     )]
     TooLong { from: f64, to: f64, steps: f64 },
+    #[error(
+        "tolerance = {asked}: the mean at {wavelength_nm} nm is worth {reached:.1e}; ask for less, or \
+         have the table marked (model.allow_unmet_tolerance = true, --allow-unmet-tolerance)"
+    )]
+    Unmet { wavelength_nm: f64, reached: f64, asked: f64 },
 }
 
 /// Mean per particle.

@@ -13,7 +13,7 @@ use super::mean::{Ensemble, MeanError};
 use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
-use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
+use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, Quantity, Slab};
 use crate::scene::SunDisc;
 use crate::size_distribution::SizeDistribution;
 use ndarray::Array3;
@@ -41,6 +41,8 @@ pub struct SphereJob<'a> {
     pub sun_disc: SunDisc,
     /// Relative error of means asked for.
     pub tolerance: f64,
+    /// A mean that misses it is marked in the slab rather than an error.
+    pub allow_unmet: bool,
 }
 
 /// Lobes of the forward peak that are averaged over cells, and samples per lobe.
@@ -60,6 +62,9 @@ struct Curves {
     elements: Vec<[f64; 4]>,
     scattering: f64,
     extinction: f64,
+    absorption: f64,
+    /// Extinction by the optical theorem, where the elements have all that goes straight ahead.
+    forward: Option<f64>,
     asymmetry: f64,
     error: f64,
 }
@@ -119,12 +124,17 @@ pub fn sphere_slab(
         caustic_order: None,
         scattering_cross_section: curves.scattering,
         extinction_cross_section: curves.extinction,
+        absorption_cross_section: curves.absorption,
+        forward_extinction: curves.forward,
         asymmetry: curves.asymmetry,
         energy: None,
         sum_before_peak,
         peak_share: 0.0,
         error_estimate: curves.error,
         error_by_band: curves.error,
+        tolerance_met: (!curves.error.is_nan()).then_some(curves.error <= job.tolerance),
+        error_by_direction: [curves.error; ERROR_BANDS],
+        left_out: 0.0,
     })
 }
 
@@ -163,19 +173,26 @@ impl SphereJob<'_> {
         };
         let x = TAU * radius / self.wavelength;
         let sphere = Sphere::new(x, index)?;
-        let (amplitudes, error) = match &self.source {
-            Source::LorenzMie => (sphere.amplitudes_parallel(theta), SERIES_ERROR),
+        let area = (self.wavelength / TAU).powi(2);
+        let (amplitudes, forward, error) = match &self.source {
+            Source::LorenzMie => {
+                let (s1, s2) = sphere.amplitudes(&[0.0])[0];
+                let forward = TAU * area * (s1 + s2).re;
+                (sphere.amplitudes_parallel(theta), Some(forward), SERIES_ERROR)
+            }
+            // Cross-sections are those of the whole sphere, the terms part of it.
             Source::Debye(terms) => {
-                (DebyeSeries::new(x, index)?.sum_parallel(terms, theta), f64::NAN)
+                (DebyeSeries::new(x, index)?.sum_parallel(terms, theta), None, f64::NAN)
             }
         };
-        let area = (self.wavelength / TAU).powi(2);
         let shadow = PI * radius * radius;
         let q = sphere.efficiencies();
         Ok(Curves {
             elements: amplitudes.into_iter().map(|pair| of_pair(pair, area)).collect(),
             scattering: q.q_sca * shadow,
             extinction: q.q_ext * shadow,
+            absorption: q.q_abs * shadow,
+            forward,
             asymmetry: q.asymmetry,
             error,
         })
@@ -190,10 +207,19 @@ impl SphereJob<'_> {
             tolerance: self.tolerance,
         };
         let mean = ensemble.mean(theta)?;
+        if !self.allow_unmet && !(mean.error <= self.tolerance) {
+            return Err(MeanError::Unmet {
+                wavelength_nm: self.wavelength * 1e9,
+                reached: mean.error,
+                asked: self.tolerance,
+            });
+        }
         Ok(Curves {
             elements: mean.elements,
             scattering: mean.scattering,
             extinction: mean.scattering + mean.absorption,
+            absorption: mean.absorption,
+            forward: None,
             asymmetry: mean.asymmetry,
             error: mean.error,
         })
@@ -263,6 +289,7 @@ mod tests {
                     bandwidth: 0.0,
                     sun_disc: SunDisc::None,
                     tolerance: 1e-3,
+                    allow_unmet: false,
                 };
                 let (quantity, peak) = (Quantity::PhaseFunction, ForwardPeak::CellAverage);
                 let slab = sphere_slab(&job, &theta, quantity, peak).unwrap();

@@ -23,6 +23,8 @@ pub struct Tabulator<'a> {
     /// Cross section for scattering and area of the shadow, in units of the squared radius.
     pub scattering: f64,
     pub shadow_area: f64,
+    /// Share of the scattered power that is in no order of the table: what Σ P·ΔΩ lacks to 1.
+    pub left_out: f64,
 }
 
 /// The values of a slab and what was found on the way.
@@ -238,12 +240,13 @@ impl Tabulator<'_> {
             return (1.0, sum_before_peak, share);
         }
         // Secant steps: the sum is nearly linear in the factor.
+        let whole = 1.0 - self.left_out;
         let mut factor = 1.0;
         for _ in 0..8 {
             let sum = rest + forward(factor);
             let slope = (sum - rest - without) / factor;
-            factor = (factor + (1.0 - sum) / slope).clamp(0.05, 4.0);
-            if (1.0 - sum).abs() < 1e-9 {
+            factor = (factor + (whole - sum) / slope).clamp(0.05, 4.0);
+            if (whole - sum).abs() < 1e-9 {
                 break;
             }
         }

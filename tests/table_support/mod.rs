@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 use gonio::phase_table::{
-    Axes, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Averaging, Axes, Bodies, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -25,6 +25,9 @@ pub fn header(wavelengths: usize, theta: usize, phi: usize, quantity: Quantity) 
         shape: "raindrop".into(),
         radius: 5e-4,
         sun_elevation: 20f64.to_radians(),
+        bodies: Some(Bodies::sphere(5e-4).with_density(Some(998.0), "made up")),
+        averaging: Averaging { bandwidth: 2e-9, ..Averaging::default() },
+        tolerance: 0.01,
         scene_toml: "[particle]\nshape = \"raindrop\"\n".into(),
         command_line: "gonio table".into(),
     }
@@ -66,9 +69,14 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         })),
         scattering_cross_section: 1.5e-6 + 1e-9 * index as f64,
         extinction_cross_section: 1.6e-6,
+        absorption_cross_section: 1e-7 - 1e-9 * index as f64,
+        forward_extinction: Some(1.6e-6 + 1e-11),
         asymmetry: g,
         energy: Some(EnergyBudget {
-            left_by_order: vec![0.06, 0.88, 0.05, 0.009 + 1e-4 * index as f64],
+            left_by_order: {
+                let more = 1e-4 * index as f64;
+                vec![0.06, 0.88 - more, 0.05, 0.009 + more]
+            },
             absorbed: 1e-4,
             totally_reflected: 2e-4,
             truncated: 7e-4,
@@ -78,6 +86,9 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         peak_share: 0.5,
         error_estimate: 0.01,
         error_by_band: 0.05,
+        tolerance_met: Some(index % 2 == 0),
+        error_by_direction: [0.05; gonio::phase_table::ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 
@@ -98,6 +109,8 @@ pub fn mie_table(
     let mut header = header(wavelengths.len(), theta_count, 1, quantity);
     header.axes.wavelength = wavelengths.to_vec();
     (header.method, header.shape, header.radius) = ("mie".into(), "sphere".into(), radius);
+    header.averaging = Averaging::default();
+    header.bodies = Some(Bodies::sphere(radius).with_density(Some(1000.0), "made up"));
     let weights = header.axes.solid_angle();
     let slabs = wavelengths.iter().map(|&wavelength| {
         let x = TAU * radius / wavelength;
@@ -121,12 +134,17 @@ pub fn mie_table(
             caustic_order: None,
             scattering_cross_section: efficiencies.q_sca * area,
             extinction_cross_section: efficiencies.q_ext * area,
+            absorption_cross_section: efficiencies.q_abs * area,
+            forward_extinction: None,
             asymmetry: efficiencies.asymmetry,
             energy: None,
             sum_before_peak: 1.0,
             peak_share: 0.0,
             error_estimate: 0.0,
             error_by_band: 0.0,
+            tolerance_met: None,
+            error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
+            left_out: 0.0,
         }
     });
     let slabs = slabs.collect();

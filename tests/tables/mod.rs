@@ -2,7 +2,9 @@
 #![allow(dead_code, reason = "every test crate uses its own share of these helpers")]
 
 use gonio::medium::Medium;
-use gonio::phase_table::{Axes, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader};
+use gonio::phase_table::{
+    Averaging, Axes, Bodies, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+};
 use gonio::series::lorenz_mie::Sphere;
 use ndarray::Array3;
 use num_complex::Complex64;
@@ -30,6 +32,9 @@ fn header(radius: f64, axes: Axes, quantity: Quantity) -> TableHeader {
         shape: "sphere".into(),
         radius,
         sun_elevation: 0.0,
+        bodies: Some(Bodies::sphere(radius)),
+        averaging: Averaging::default(),
+        tolerance: f64::NAN,
         scene_toml: String::new(),
         command_line: String::new(),
     }
@@ -92,12 +97,17 @@ fn slab(
         caustic_order: None,
         scattering_cross_section: scattering,
         extinction_cross_section: extinction,
+        absorption_cross_section: extinction - scattering,
+        forward_extinction: None,
         asymmetry,
         energy: None,
         sum_before_peak: 1.0,
         peak_share: 0.0,
         error_estimate: 0.0,
         error_by_band: 0.0,
+        tolerance_met: None,
+        error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
+        left_out: 0.0,
     }
 }
 

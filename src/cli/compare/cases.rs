@@ -1,7 +1,7 @@
 //! Spheres computed by Lorenz–Mie, by rays with parts of the method switched off, and order by
 //! order.
 
-use crate::cli::{UsageError, progress};
+use crate::cli::{UsageError, notes, progress};
 use anyhow::Context;
 use gonio::compare::{Case, Entry, OrderPair};
 use gonio::phase_table::{ForwardPeak, Quantity};
@@ -53,10 +53,12 @@ impl Source {
     fn with(&self, change: impl Fn(&mut SceneFile)) -> anyhow::Result<Scene> {
         let mut flags = SceneFile::default();
         change(&mut flags);
-        Ok(match self {
+        let scene = match self {
             Self::File(text) => Scene::from_text(text.clone(), &flags)?,
             Self::Keys(keys) => keys.clone().overridden_by(&flags).validate()?,
-        })
+        };
+        notes::tell(scene.medium.notes());
+        Ok(scene)
     }
 }
 
@@ -125,7 +127,11 @@ impl Runs {
                     method(flags, Method::Debye);
                     flags.model.orders = list(&[order]);
                 })?;
-                Ok((order, rays(&|f| f.model.orders = list(&[order]))?, exact))
+                let alone = rays(&|f| {
+                    f.model.orders = list(&[order]);
+                    f.table.forward_peak = Some(Choice(ForwardPeak::Separate));
+                })?;
+                Ok((order, alone, exact))
             })
             .collect::<anyhow::Result<Vec<_>>>()?;
         let tests = std::iter::once(("rays", whole)).chain(tests).collect();

@@ -1,9 +1,11 @@
 //! `gonio material --kramers-kronig`: n from k, or k from n.
 
-use crate::cli::UsageError;
+use crate::cli::{UsageError, notes};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use gonio::medium::kramers_kronig::{Absorption, Between, Tails, extinction_from_index, maclaurin};
+use gonio::medium::kramers_kronig::{
+    Absorption, Between, Tails, extinction_from_index, maclaurin, worth_of_range,
+};
 use gonio::medium::{Medium, MediumSpec, read_csv};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -23,6 +25,9 @@ pub(super) struct TransformArgs {
     /// From n to k instead
     #[arg(long, requires = "kramers_kronig")]
     inverse: bool,
+    /// Print a k below zero too, which no passive material has
+    #[arg(long, requires = "inverse")]
+    allow_negative_k: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -43,37 +48,40 @@ enum TailsName {
     Band,
 }
 
+/// What the transform gives, and how far the ends of the data may be trusted at each row.
+struct Transformed {
+    n: Vec<f64>,
+    k: Vec<f64>,
+    worth: Option<Vec<f64>>,
+}
+
 /// Reads the file, transforms, and returns the result as text and as JSON.
 pub(super) fn run(file: &Path, args: &TransformArgs) -> Result<(String, Value)> {
     let table = read_csv(file)?;
+    notes::tell(table.notes.iter().map(|note| format!("{}: {note}", file.display())));
     let Some(background) = &args.background else {
         let message = "--kramers-kronig: give --background, a number or a material's name".into();
         return Err(UsageError(message).into());
     };
     let background = background_medium(background)?;
-    let mut base = Vec::with_capacity(table.wavelength.len());
-    for &wavelength in &table.wavelength {
+    let column = if args.inverse { &table.n } else { &table.k };
+    let (wavelength, values) = column.complete()?;
+    if wavelength.len() < 2 {
+        let name = if args.inverse { "n" } else { "k" };
+        let message = format!("{}: no column {name} of two rows or more", file.display());
+        return Err(UsageError(message).into());
+    }
+    let mut base = Vec::with_capacity(wavelength.len());
+    for &wavelength in wavelength {
         base.push(background.index(wavelength)?.re);
     }
-    let missing = |column: &str| UsageError(format!("{}: no column {column}", file.display()));
-    let (n, k) = if args.inverse {
-        if table.n.is_empty() {
-            return Err(missing("n").into());
-        }
-        let k = inverse(args, &table.wavelength, &table.n, &base)?;
-        (table.n, k)
-    } else {
-        if table.k.is_empty() {
-            return Err(missing("k").into());
-        }
-        let change = forward(args, &table.wavelength, &table.k)?;
-        (base.iter().zip(change).map(|(b, c)| b + c).collect(), table.k)
+    let result = match args.inverse {
+        true => inverse(args, wavelength, values, &base)?,
+        false => forward(args, wavelength, values, &base)?,
     };
-    let nm: Vec<f64> = table.wavelength.iter().map(|w| w * 1e9).collect();
-    let mut text = String::new();
-    let _ = writeln!(text, "{:>14}  {:>12}  {:>12}", "wavelength_nm", "n", "k");
-    for ((nm, n), k) in nm.iter().zip(&n).zip(&k) {
-        let _ = writeln!(text, "{nm:>14.4}  {n:>12.8}  {k:>12.5e}");
+    let nm: Vec<f64> = wavelength.iter().map(|w| w * 1e9).collect();
+    if args.inverse {
+        check_sign(args, &nm, &result)?;
     }
     let method = args.method.to_possible_value().map(|v| v.get_name().to_string());
     let tails = args.tails.to_possible_value().map(|v| v.get_name().to_string());
@@ -84,11 +92,67 @@ pub(super) fn run(file: &Path, args: &TransformArgs) -> Result<(String, Value)> 
         "background": background.name(),
         "source": table.source,
         "wavelength_nm": nm,
-        "n": n,
-        "k": k,
+        "n": result.n,
+        "k": result.k,
         "n_background": base,
+        "range_uncertainty": result.worth,
     });
-    Ok((text, value))
+    Ok((text(args, &nm, &result), value))
+}
+
+fn text(args: &TransformArgs, nm: &[f64], result: &Transformed) -> String {
+    let of = if args.inverse { "k" } else { "n" };
+    let mut text = String::new();
+    let (first, last) = (nm[0], nm[nm.len() - 1]);
+    let _ = match &result.worth {
+        Some(worth) => {
+            let (middle, ends) = extremes(nm, worth);
+            let given = if args.inverse { "n" } else { "k" };
+            writeln!(
+                text,
+                "{given} is known from {first:.1} to {last:.1} nm only: what lies beyond may change \
+                 {of} by {middle:.1e} in the middle half and by {ends:.1e} at the ends"
+            )
+        }
+        None => writeln!(
+            text,
+            "data from {first:.1} to {last:.1} nm only, without a band to judge by what lies beyond"
+        ),
+    };
+    let _ = writeln!(text, "{:>14}  {:>12}  {:>12}", "wavelength_nm", "n", "k");
+    for ((nm, n), k) in nm.iter().zip(&result.n).zip(&result.k) {
+        let _ = writeln!(text, "{nm:>14.4}  {n:>12.8}  {k:>12.5e}");
+    }
+    text
+}
+
+/// The largest value within the middle half of the range, and of all.
+fn extremes(nm: &[f64], worth: &[f64]) -> (f64, f64) {
+    let (first, last) = (nm[0], nm[nm.len() - 1]);
+    let quarter = 0.25 * (last - first);
+    let middle = first + quarter..=last - quarter;
+    let rows = || nm.iter().zip(worth);
+    let inner = rows().filter(|(nm, _)| middle.contains(nm)).map(|(_, w)| *w);
+    (inner.fold(0.0, f64::max), rows().map(|(_, w)| *w).fold(0.0, f64::max))
+}
+
+/// Refuses a k below zero, which says that the range or the background is at fault.
+fn check_sign(args: &TransformArgs, nm: &[f64], result: &Transformed) -> Result<()> {
+    let rows = nm.iter().zip(&result.k).zip(result.worth.iter().flatten());
+    let Some(((nm, k), worth)) = rows.min_by(|a, b| a.0.1.total_cmp(b.0.1)) else {
+        return Ok(());
+    };
+    let below = result.k.iter().filter(|k| **k < 0.0).count();
+    if below == 0 || args.allow_negative_k {
+        return Ok(());
+    }
+    let message = format!(
+        "--inverse: k is below 0 in {below} of {} rows, k = {k:.3e} at {nm} nm, where the ends of the \
+         data are worth {worth:.1e}: give n over a wider range, another --background, or \
+         --allow-negative-k",
+        result.k.len()
+    );
+    Err(UsageError(message).into())
 }
 
 fn background_medium(text: &str) -> Result<Medium> {
@@ -99,25 +163,53 @@ fn background_medium(text: &str) -> Result<Medium> {
     Ok(spec.resolve(Path::new("."))?)
 }
 
-fn forward(args: &TransformArgs, wavelength: &[f64], k: &[f64]) -> Result<Vec<f64>> {
-    let tails = match args.tails {
-        TailsName::Taper => Tails::Taper,
-        TailsName::Band => Tails::LorentzBand,
+fn forward(
+    args: &TransformArgs,
+    wavelength: &[f64],
+    k: &[f64],
+    base: &[f64],
+) -> Result<Transformed> {
+    let (tails, other) = match args.tails {
+        TailsName::Taper => (Tails::Taper, Tails::LorentzBand),
+        TailsName::Band => (Tails::LorentzBand, Tails::Taper),
     };
     let between = match args.method {
         Method::Maclaurin if args.tails == TailsName::Band => {
             let message = "--method maclaurin sums the rows of the file only: no --tails band";
             return Err(UsageError(message.into()).into());
         }
-        Method::Maclaurin => return Ok(maclaurin(wavelength, k)?),
-        Method::Analytic => Between::Spline,
+        Method::Analytic | Method::Maclaurin => Between::Spline,
         Method::Lines => Between::Lines,
     };
-    let absorption = Absorption::with(wavelength, k, tails, between)?;
-    Ok(wavelength.iter().map(|&w| absorption.index_change(w)).collect())
+    let change = |tails| -> Result<Vec<f64>> {
+        let absorption = Absorption::with(wavelength, k, tails, between)?;
+        Ok(wavelength.iter().map(|&w| absorption.index_change(w)).collect())
+    };
+    let this = change(tails);
+    // The two ways to end differ by what the ends are worth; without a band there is one way only.
+    let worth = match (&this, change(other)) {
+        (Ok(this), Ok(other)) => {
+            Some(this.iter().zip(&other).map(|(a, b)| (a - b).abs()).collect())
+        }
+        _ => None,
+    };
+    let change = match args.method {
+        Method::Maclaurin => maclaurin(wavelength, k)?,
+        _ => this?,
+    };
+    Ok(Transformed {
+        n: base.iter().zip(change).map(|(b, c)| b + c).collect(),
+        k: k.to_vec(),
+        worth,
+    })
 }
 
-fn inverse(args: &TransformArgs, wavelength: &[f64], n: &[f64], base: &[f64]) -> Result<Vec<f64>> {
+fn inverse(
+    args: &TransformArgs,
+    wavelength: &[f64],
+    n: &[f64],
+    base: &[f64],
+) -> Result<Transformed> {
     let between = match args.method {
         Method::Analytic => Between::Spline,
         Method::Lines => Between::Lines,
@@ -126,6 +218,12 @@ fn inverse(args: &TransformArgs, wavelength: &[f64], n: &[f64], base: &[f64]) ->
             return Err(UsageError(message).into());
         }
     };
+    if args.tails == TailsName::Band {
+        let message = "--inverse: the change of n has no wing of a band: --tails must be taper";
+        return Err(UsageError(message.into()).into());
+    }
     let change: Vec<f64> = n.iter().zip(base).map(|(n, b)| n - b).collect();
-    Ok(extinction_from_index(wavelength, &change, between)?)
+    let k = extinction_from_index(wavelength, &change, between)?;
+    let worth = Some(worth_of_range(wavelength, &change)?);
+    Ok(Transformed { n: n.to_vec(), k, worth })
 }

@@ -8,6 +8,9 @@ use std::f64::consts::TAU;
 /// Half width of the picture in drop radii, and pixels per radius.
 const REACH: f64 = 2.4;
 const SCALE: f64 = 150.0;
+/// Height of a line of the caption, pixels, and bows named in one.
+const LINE: f64 = 22.0;
+const BOWS_IN_LINE: usize = 2;
 /// Most rays drawn.
 const MOST_DRAWN: usize = 60;
 
@@ -19,21 +22,28 @@ pub(super) fn draw(shape: &Shape, order: u32, rays: &[PlaneRay], rainbows: &[Rai
         .iter()
         .map(|b| format!("{:.2}° (impact {:+.3} a)", b.deviation.to_degrees(), b.impact))
         .collect();
-    let caption = if bows.is_empty() {
-        "no stationary deviation".to_string()
-    } else {
-        format!("stationary deviation: {}", bows.join(", "))
-    };
-    let view = format!("0 0 {side} {}", side + 60.0);
+    // Three bows would run out of the picture in one line.
+    let mut caption: Vec<String> = bows.chunks(BOWS_IN_LINE).map(|line| line.join(", ")).collect();
+    match caption.first_mut() {
+        Some(first) => first.insert_str(0, "stationary deviation: "),
+        None => caption.push("no stationary deviation".into()),
+    }
+    let height = side + LINE * (caption.len() + 1) as f64 + 16.0;
+    let view = format!("0 0 {side} {height}");
     let body = html! {
-        svg xmlns="http://www.w3.org/2000/svg" viewBox=(view) width=(side) height=(side + 60.0)
+        svg xmlns="http://www.w3.org/2000/svg" viewBox=(view) width=(side) height=(height)
             font-family="sans-serif" font-size="14" {
             rect width="100%" height="100%" fill="white" {}
             path d=(outline(shape)) fill="#e3f1fb" stroke="#20507a" stroke-width="1.5" {}
             @for ray in rays.iter().step_by(step) { (path(ray)) }
             (axes(shape))
-            text x="12" y=(side + 22.0) { "order p = " (order) ": " (caption) }
-            text x="12" y=(side + 44.0) fill="#555" {
+            @for (i, line) in caption.iter().enumerate() {
+                text x="12" y=(side + LINE * (i + 1) as f64) {
+                    @if i == 0 { "order p = " (order) ": " }
+                    (line)
+                }
+            }
+            text x="12" y=(height - 16.0) fill="#555" {
                 "a: radius of equal volume. Rays: yellow incident, grey inside, red leaving; upper side up."
             }
         }

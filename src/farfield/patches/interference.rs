@@ -68,11 +68,20 @@ impl Interference {
         let corners = hit.sheet.triangles[hit.triangle].map(|i| &hit.sheet.corners[i as usize]);
         let path = self.path(&corners, hit.weights, direction.unit);
         let bound = if hit.sheet.order < 2 { f64::INFINITY } else { self.largest_jacobian };
-        let size = jacobian(&corners, hit).min(bound).sqrt();
+        let size = jacobian(&corners, hit).min(bound).min(self.at_axis(&corners)).sqrt();
         let transfer = transfer(&corners, hit.weights, direction);
         let turns = -0.25 * f64::from(1 + focal_lines(&corners, hit.sense));
         let phase = self.size_parameter * path + std::f64::consts::TAU * turns;
         transfer * (Complex64::cis(phase) * (self.size_parameter * size))
+    }
+
+    /// Largest `dA/dΩ` of rays whose ring of radius `b` (exit impact) is focused on the axis: their wave
+    /// `J₀(x b sin θ)` has `π x b/2` where rays have `1/sin θ`. Rays of small impact form no ring.
+    fn at_axis(&self, corners: &[&Corner; 3]) -> f64 {
+        const LEAST_RING: f64 = 5.0;
+        let square = corners.iter().map(|c| c.reference.dot(c.reference)).fold(0.0, f64::max);
+        let zones = self.size_parameter * square;
+        if zones > LEAST_RING { 0.5 * std::f64::consts::PI * zones } else { f64::INFINITY }
     }
 
     fn path(&self, corners: &[&Corner; 3], weights: [f64; 3], d: Vec3<f64>) -> f64 {

@@ -1,0 +1,98 @@
+//! What a table costs before it is computed: memory, and the time to write it down.
+//!
+//! The time of the physics is not modelled: `gonio plan` computes a few columns of a few wavelengths and
+//! counts processor time, so that its forecast holds on any machine, idle or loaded. Memory cannot be
+//! tried out; here are the sizes of what is held at once, with bytes as measured (the peak resident set of
+//! whole runs, x86-64 Linux).
+
+use super::{Engine, Plan, Symmetry};
+use crate::scene::Scene;
+use std::f64::consts::TAU;
+
+/// The program, its libraries and threads.
+const PROGRAM: f64 = 21e6;
+/// Slabs at once: one being computed, one waiting, one being written.
+const SLABS: f64 = 3.0;
+/// Amplitudes and values of one direction of a column, and columns in work on each thread.
+const COLUMN: f64 = 200.0;
+const COLUMNS: f64 = 8.0;
+/// Values (f32) that the preview keeps at most, and what drawing it takes per direction.
+const PREVIEW_VALUES: f64 = 64.0 * 1024.0 * 1024.0;
+const PREVIEW_DIRECTION: f64 = 24.0;
+/// Per ray and order of a grid of patches: corners twice (as traced, and as a sheet), triangles, and
+/// their hierarchy of boxes. Measured: 1.69 GB for 500 × 1000 rays of 4 orders.
+const PATCH: f64 = 840.0;
+/// Spokes of the grid of patches on the sphere that the stated error is measured on.
+const CHECK_SPOKES: usize = 96;
+/// Meridians of an order at all its azimuths.
+const MERIDIANS: f64 = 2e6;
+/// Partial waves: samples and potentials, per squared size parameter; and size parameter up to which
+/// they serve.
+const PARTIAL_WAVES: f64 = 420.0;
+const LAST_OF_PARTIAL_WAVES: f64 = 600.0;
+/// Spheres: coefficients per size parameter; means over sizes: sums on all threads.
+const SERIES_SIZE: f64 = 1000.0;
+const MEANS: f64 = 75e6;
+
+/// Processor seconds to compress and write one value, to draw the preview, and to start.
+const WRITE_VALUE: f64 = 2.2e-8;
+const DRAW: f64 = 0.25;
+
+/// What a table takes beside its physics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Peak memory of the whole run, bytes.
+    pub memory: u64,
+    /// Processor seconds to write the file and draw its picture.
+    pub writing_seconds: f64,
+}
+
+impl Plan {
+    /// The cost of a scene's table on some threads.
+    ///
+    /// ```
+    /// use gonio::plan::Plan;
+    /// use gonio::scene::{Scene, SceneFile};
+    /// let scene = Scene::built_in(&SceneFile::default())?;
+    /// let cost = Plan::new(&scene)?.cost(&scene, 2);
+    /// assert!(cost.memory > 100_000_000 && cost.memory < 1_000_000_000);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn cost(&self, scene: &Scene, threads: usize) -> Cost {
+        let azimuths = if self.symmetry == Symmetry::Rotational { 1 } else { scene.phi.len() };
+        let theta = scene.theta.len() as f64;
+        let directions = theta * azimuths as f64;
+        let values = directions * scene.quantity.elements() as f64;
+        let wavelengths = scene.wavelengths.len() as f64;
+        let series = matches!(self.engine, Engine::LorenzMie | Engine::Debye);
+
+        let slabs = SLABS.min(wavelengths + 1.0) * 4.0 * values;
+        // half the azimuths are computed, and held until the slab is filled
+        let lines = if series { 0.0 } else { 2.0 * values };
+        let columns = if series { 0.0 } else { threads as f64 * COLUMNS * theta * COLUMN };
+        let preview =
+            4.0 * PREVIEW_VALUES.min(directions * wavelengths) + PREVIEW_DIRECTION * directions;
+        let memory = PROGRAM + slabs + lines + columns + preview + self.method_memory(scene);
+        Cost { memory: memory as u64, writing_seconds: WRITE_VALUE * values * wavelengths + DRAW }
+    }
+
+    /// What the method holds for one wavelength.
+    fn method_memory(&self, scene: &Scene) -> f64 {
+        let shortest = scene.wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
+        let x = TAU * self.radius / shortest;
+        let orders = self.orders.len() as f64;
+        match self.engine {
+            Engine::Patches => {
+                let spokes = self.spokes + CHECK_SPOKES.min(self.spokes);
+                PATCH * (self.rings * spokes) as f64 * orders
+            }
+            Engine::Meridians if self.symmetry == Symmetry::Rotational => 0.1 * MERIDIANS * orders,
+            Engine::Meridians if x < LAST_OF_PARTIAL_WAVES => PARTIAL_WAVES * x * x,
+            Engine::Meridians => MERIDIANS * orders,
+            Engine::LorenzMie | Engine::Debye => {
+                let many = scene.size_distribution.is_some() || scene.bandwidth > 0.0;
+                SERIES_SIZE * x + if many { MEANS } else { 0.0 }
+            }
+        }
+    }
+}
