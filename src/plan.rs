@@ -146,8 +146,6 @@ pub struct Plan {
     pub forward_diffraction: bool,
     /// Relative error asked for.
     pub tolerance: f64,
-    /// Whether the error is measured; many runs of much the same particle may do without.
-    pub checked: bool,
     /// By which numbers rays of each order get their method.
     pub thresholds: Thresholds,
     /// Grid of the patches: rings from centre to rim, and spokes.
@@ -198,7 +196,6 @@ impl Plan {
             complete,
             forward_diffraction,
             tolerance: scene.tolerance,
-            checked: true,
             thresholds: Thresholds::MEASURED,
             rings,
             spokes: 2 * rings,
@@ -228,7 +225,6 @@ impl Plan {
             complete: forward_diffraction,
             forward_diffraction,
             tolerance,
-            checked: true,
             thresholds: Thresholds::MEASURED,
             rings,
             spokes: 2 * rings,

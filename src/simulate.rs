@@ -129,13 +129,9 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
-    let error_estimate = if plan.checked {
-        let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-        let tracer = plan.tracer(index, size_parameter);
-        far_field.error_estimate(&tracer, &squares, treatment.interference)
-    } else {
-        ErrorEstimate::UNKNOWN
-    };
+    let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
+    let tracer = plan.tracer(index, size_parameter);
+    let error_estimate = far_field.error_estimate(&tracer, &squares, treatment.interference);
     let known = !error_estimate.weighted.is_nan();
     let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
@@ -341,8 +337,8 @@ fn bodies(scene: &Scene, plan: &Plan) -> Bodies {
         Some(sizes) => Bodies {
             effective_radius: sizes.effective_radius(),
             effective_variance: sizes.effective_variance(),
-            mean_volume: 4.0 / 3.0 * PI * sizes.mean_power(3),
-            mean_area: PI * sizes.mean_power(2),
+            mean_volume: 4.0 / 3.0 * PI * sizes.moment(3.0),
+            mean_area: PI * sizes.moment(2.0),
             ..Bodies::sphere(plan.radius)
         },
         None => Bodies::of_one_size(
@@ -366,10 +362,7 @@ fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
             SunDisc::Uniform => DiscOfSun::Uniform,
             SunDisc::LimbDarkened => DiscOfSun::LimbDarkened,
         },
-        sizes: scene
-            .size_distribution
-            .as_ref()
-            .is_some_and(|sizes| !matches!(sizes, SizeDistribution::Delta { .. })),
+        sizes: scene.size_distribution.as_ref().is_some_and(|sizes| sizes.single().is_none()),
         bandwidth: scene.bandwidth,
         filter: if filtered { gaussian_filter::standard_deviation(plan.radius) } else { 0.0 },
     }
@@ -440,10 +433,10 @@ fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Mean
         let orders = plan.orders.iter().map(|&p| Term::Order(p));
         Source::Debye(orders.chain(plan.forward_diffraction.then_some(Term::Diffraction)).collect())
     };
-    let one = SizeDistribution::Delta { radius: plan.radius };
+    let one = SizeDistribution::delta(plan.radius);
     let job = SphereJob {
         source,
-        sizes: scene.size_distribution.unwrap_or(one),
+        sizes: scene.size_distribution.clone().unwrap_or(one),
         medium: &scene.medium,
         wavelength,
         bandwidth: scene.bandwidth,

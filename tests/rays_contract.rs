@@ -126,12 +126,11 @@ fn soft_particles_are_refused_by_both_commands_alike() {
             let message = String::from_utf8_lossy(&found.stderr);
             let code = if refused { Some(2) } else { Some(0) };
             assert_eq!(found.status.code(), code, "{name}, index {index}, x = {x}: {message}");
-            assert_eq!(
-                refused,
-                message.contains("phase shift through the particle, 2x|n - 1| = ")
-                    && message.contains("accepted from 5 on"),
-                "{name}: {message}"
-            );
+            // the words of scenes for an index of 1, whatever the method
+            let unlit = name == "table" && message.contains("an index of 1 scatters no light");
+            let soft = message.contains("phase shift through the particle, 2x|n - 1| = ")
+                && message.contains("accepted from 5 on");
+            assert_eq!(refused, soft || unlit, "{name}: {message}");
         }
         let note = String::from_utf8_lossy(&scatter.stderr).contains("is small for rays");
         assert_eq!(note, !refused, "index {index}, x = {x}");

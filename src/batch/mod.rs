@@ -80,7 +80,7 @@ impl BatchError {
             | BatchError::Simulate(
                 SimulateError::Energy { .. }
                 | SimulateError::Wrong(_)
-                | SimulateError::Mean(MeanError::Unmet { .. }),
+                | SimulateError::Mean(MeanError::NotMet { .. }),
             )
             | BatchError::Table(TableError::Table(_)) => exit_code::NUMERICAL,
             BatchError::Simulate(_) => exit_code::WRONG_INPUT,

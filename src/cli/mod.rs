@@ -158,8 +158,7 @@ fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
             Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
             Some(SimulateError::Series(inner)) => is_wrong_input(inner),
             Some(SimulateError::Mean(MeanError::Series(inner))) => is_wrong_input(inner),
-            Some(SimulateError::Mean(MeanError::Unmet { .. })) => false,
-            Some(SimulateError::Mean(_)) => true,
+            Some(SimulateError::Mean(error)) => !matches!(error, MeanError::NotMet { .. }),
             _ => false,
         }
 }

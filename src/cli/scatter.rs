@@ -116,6 +116,16 @@ struct Answer {
     q_back: Option<f64>,
     asymmetry: Option<f64>,
     diffraction_included: bool,
+    remainder: Option<Remainder>,
+}
+
+/// What a sum over Debye's terms leaves out.
+struct Remainder {
+    /// Of the largest coefficient.
+    largest: f64,
+    /// Of the amplitudes, root mean square, relative to Lorenz–Mie without diffraction.
+    share: f64,
+    last_order: u32,
 }
 
 pub fn run(args: ScatterArgs) -> Result<()> {
@@ -285,6 +295,7 @@ fn mie(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         q_back: Some(q.q_back),
         asymmetry: Some(q.asymmetry),
         diffraction_included: true,
+        remainder: None,
     })
 }
 
@@ -296,6 +307,8 @@ fn debye(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         None if job.diffraction_term => Vec::new(),
         None => (0..=last_order(job.index.re, args.tolerance)).collect(),
     };
+    // Only a sum from the first order on stands for the whole.
+    let all_up_to = list.last().copied().filter(|_| (0..).zip(&list).all(|(k, order)| k == *order));
     let mut terms: Vec<Term> = list.into_iter().map(Term::Order).collect();
     let diffraction_included = auto || job.diffraction_term;
     if diffraction_included {
@@ -303,6 +316,18 @@ fn debye(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     }
     let series = DebyeSeries::new(job.size_parameter, job.index)?;
     let amplitudes = diagonal(series.sum_parallel(&terms, &radians(job)));
+    let remainder = all_up_to.map(|last_order| Remainder {
+        largest: series.remainder(last_order),
+        share: series.missing_share(last_order),
+        last_order,
+    });
+    if let Some(left) = remainder.as_ref().filter(|left| auto && left.share > args.tolerance) {
+        eprintln!(
+            "note: the sum of Debye terms up to order {} has not converged: what is left out is {:.1e} of \
+             the amplitude outside the forward peak; --method mie has all orders",
+            left.last_order, left.share
+        );
+    }
     let q = Sphere::new(job.size_parameter, job.index)?.efficiencies();
     Ok(Answer {
         amplitudes,
@@ -312,6 +337,7 @@ fn debye(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         q_back: Some(q.q_back),
         asymmetry: Some(q.asymmetry),
         diffraction_included,
+        remainder,
     })
 }
 
@@ -396,6 +422,7 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         q_back: Some(4.0 * back.s11() / job.size_parameter.powi(2)),
         asymmetry: Some((shadow * fates.forward_momentum + straight) / q_sca),
         diffraction_included: diffraction,
+        remainder: None,
     })
 }
 
@@ -432,6 +459,8 @@ fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Valu
         "q_back": answer.q_back,
         "asymmetry": answer.asymmetry,
         "diffraction_included": answer.diffraction_included,
+        "remainder": answer.remainder.as_ref().map(|left| left.largest),
+        "remainder_share": answer.remainder.as_ref().map(|left| left.share),
         "seconds": seconds,
     })
 }

@@ -5,7 +5,7 @@ use super::TableError;
 use super::damaged;
 use super::raw_read::OpenFile;
 use super::raw_write::{Kind, NewDataset, NewFile};
-use super::units::{degree, tidy};
+use crate::math::digits::{degree, tidy};
 use crate::phase_table::{Averaging, Bodies, DiscOfSun, TableHeader};
 
 type Getter = fn(&TableHeader) -> f64;

@@ -76,7 +76,6 @@ mod record;
 mod schema;
 mod space;
 mod sweep;
-mod units;
 mod writer;
 
 pub use diagram::{DiagramAxis, DiagramValues, write_diagram};

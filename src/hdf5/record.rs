@@ -6,7 +6,7 @@
 use super::TableError;
 use super::raw_write::{Kind, NewDataset, NewFile};
 use super::schema::scale;
-use super::units::degree;
+use crate::math::digits::degree;
 use crate::phase_table::{ERROR_BANDS, EnergyBudget, Slab, error_theta};
 use num_complex::Complex64;
 

@@ -5,7 +5,7 @@ use super::chunk::{ChunkEncoder, encode_and_write, encoders};
 use super::circumstances::write_attributes;
 use super::output::WriteOptions;
 use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
-use super::units::{degree, tidy};
+use crate::math::digits::{degree, nm};
 use crate::phase_table::{Axes, ForwardPeak, Quantity, TableHeader};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -160,11 +160,6 @@ pub(super) fn scale(
     Ok(data)
 }
 
-/// Metres to nanometres, free of the noise that the division leaves in the last digits.
-pub(super) fn nm(metres: f64) -> f64 {
-    tidy(metres * 1e9)
-}
-
 /// Root attributes of tables and sweeps.
 pub(super) fn write_root(
     file: &NewFile,
@@ -234,15 +229,6 @@ mod tests {
         assert_eq!(iso_date(0), "1970-01-01T00:00:00Z");
         assert_eq!(iso_date(951_782_400), "2000-02-29T00:00:00Z");
         assert_eq!(iso_date(1_769_860_799), "2026-01-31T11:59:59Z");
-    }
-
-    #[test]
-    fn tidied_degrees_are_exact_where_they_can_be() {
-        for i in 0..=1800 {
-            let exact = f64::from(i) / 10.0;
-            assert!((degree(exact.to_radians()) - exact).abs() <= 1e-13 * exact);
-        }
-        assert_eq!(nm(550.0e-9), 550.0);
     }
 
     #[test]

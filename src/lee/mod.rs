@@ -6,6 +6,7 @@
 //! finer than the disc and the eye; it must average out and not be sampled. [`Sampling`] says how
 //! many angles and wavelengths that takes, [`SunFilter`] averages.
 
+mod about_axis;
 mod sampling;
 mod sun_filter;
 mod wavelengths;
@@ -18,9 +19,10 @@ use crate::medium::{Medium, MediumError};
 use crate::series::SeriesError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
+use about_axis::{Axis, Samples, Stimuli};
 use num_complex::Complex64;
 use rayon::prelude::*;
-use sampling::{AXIS_MARGIN, GOLDEN, TRANSITION, grid};
+use sampling::{AXIS_LIMIT, GOLDEN, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
@@ -133,7 +135,7 @@ where
     P: Fn(&Angles) -> A + Sync,
     F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
-    check(request)?;
+    check(request, beats)?;
     let index = request.medium.index(MIDDLE).map_err(LeeError::from)?.re;
     let mut order: Vec<usize> = (0..request.radii.len()).collect();
     order.sort_by(|&i, &j| request.radii[j].total_cmp(&request.radii[i]));
@@ -142,7 +144,7 @@ where
         .with_max_len(1)
         .map(|&i| {
             let sampling = Sampling::new(&request.need(request.radii[i], index, beats));
-            Ok((i, column(request, request.radii[i], &sampling, prepare, &scatter)?))
+            Ok((i, column(request, request.radii[i], (&sampling, beats), prepare, &scatter)?))
         })
         .collect::<Result<Vec<_>, E>>()?;
     columns.sort_by_key(|(i, _)| *i);
@@ -156,14 +158,11 @@ where
 /// Where the index that stands for the whole visible is taken.
 const MIDDLE: f64 = 550e-9;
 
-/// XYZ of the parallel part, then of the perpendicular one.
-type Stimuli = [f64; 6];
-
 /// One radius.
 fn column<A, E, P, F>(
     request: &Request,
     radius: f64,
-    sampling: &Sampling,
+    (sampling, beats): (&Sampling, Beats),
     prepare: &P,
     scatter: &F,
 ) -> Result<Vec<[[f64; 3]; 2]>, E>
@@ -206,13 +205,35 @@ where
             }
             let Some(filter) = &filter else { return Ok(sums) };
             let middle = sampling.wavelengths[(band.places.start + band.places.end) / 2];
-            let kernel = filter.kernel(&LimbDarkening::at(middle));
-            Ok(kernel.average(&angles.theta, band.step(), &sums, &request.theta))
+            let limb = LimbDarkening::at(middle);
+            let axis = |theta| Axis::near(theta).filter(|_| beats == Beats::All);
+            Ok(over_disc(filter, &limb, band, &angles, &sums, &request.theta, axis))
         })
         .collect::<Result<Vec<_>, E>>()?;
     let total = |t: usize, c: usize| bands.iter().map(|band| band[t][c]).sum::<f64>().max(0.0);
     let cell = |t: usize| [0, 3].map(|first| std::array::from_fn(|c| total(t, first + c)));
     Ok((0..request.theta.len()).map(cell).collect())
+}
+
+/// The averages over the sun's disc at some angles, ascending, of sums on the grid of a band.
+fn over_disc(
+    filter: &SunFilter,
+    limb: &LimbDarkening,
+    band: &Band,
+    angles: &Angles,
+    sums: &[Stimuli],
+    theta: &[f64],
+    axis: impl Fn(f64) -> Option<Axis>,
+) -> Vec<Stimuli> {
+    let samples = Samples { first: angles.even.map_or(0, |even| even.0), band, values: sums };
+    let kernel = filter.kernel(limb);
+    theta
+        .chunk_by(|a, b| axis(*a) == axis(*b))
+        .flat_map(|theta| match axis(theta[0]) {
+            Some(axis) => about_axis::average(axis, filter, limb, samples, theta),
+            None => kernel.average(&angles.theta, band.step(), sums, theta),
+        })
+        .collect()
 }
 
 /// Add what one wavelength contributes.
@@ -294,7 +315,7 @@ pub fn column_exposures(seen: &[Vec<[f64; 3]>], peak: f64) -> Vec<f64> {
         .collect()
 }
 
-fn check(request: &Request) -> Result<(), LeeError> {
+fn check(request: &Request, beats: Beats) -> Result<(), LeeError> {
     let invalid =
         |field, value: String, accepted| Err(LeeError::Invalid { field, value, accepted });
     if let Some(bad) = request.radii.iter().find(|r| !(1e-7..=1e-2).contains(*r)) {
@@ -310,11 +331,14 @@ fn check(request: &Request) -> Result<(), LeeError> {
         let value = format!("{} angles", request.theta.len());
         return invalid("theta", value, "accepted are ascending angles from 0 to 180 degrees");
     }
-    let margin = AXIS_MARGIN;
+    let margin = AXIS_LIMIT;
+    // Rays are for particles that are not round about the axis.
+    let round = beats == Beats::All;
     let (first, last) = (request.theta[0], request.theta[request.theta.len() - 1]);
-    if request.sun_disc && (first < margin || last > PI - margin) {
+    if request.sun_disc && !round && (first < margin || last > PI - margin) {
         let value = format!("{:.3} to {:.3} degrees", first.to_degrees(), last.to_degrees());
-        let accepted = "with the sun's disc, angles from 1.4 to 178.6 degrees are accepted";
+        let accepted = "with the sun's disc, angles from 1.4 to 178.6 degrees are accepted for particles \
+                        that are no spheres; --no-sun-disc takes all";
         return invalid("theta", value, accepted);
     }
     if !(0.0..=0.5).contains(&request.size_spread) {

@@ -221,5 +221,9 @@ pub fn grid(from: f64, to: f64, reach: f64, band: &Band) -> Range<usize> {
     place(from - reach).floor() as usize..last + 1
 }
 
-/// Closest to the axis that the filter reaches no further than the axis itself.
-pub const AXIS_MARGIN: f64 = 5.0 * SUN_ANGULAR_RADIUS;
+/// Closer to the axis than this, the disc is averaged as a disc and not along the angle alone: there
+/// the circles of equal scattering angle bend by ρ²/2θ, 0.006° over the disc.
+pub const AXIS_MARGIN: f64 = 6.0 * PI / 180.0;
+/// Closest to the axis that the average along the angle reaches no further than the axis itself:
+/// particles that are not round about it are not averaged over it.
+pub const AXIS_LIMIT: f64 = 5.0 * SUN_ANGULAR_RADIUS;

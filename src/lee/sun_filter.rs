@@ -20,6 +20,8 @@ const NODES: usize = 40;
 pub struct SunFilter {
     /// Half width of the windowed sinc, radians.
     half: f64,
+    /// Frequency from which on nothing passes, radians⁻¹.
+    highest: f64,
     sinc: Table,
 }
 
@@ -45,12 +47,27 @@ impl SunFilter {
             let sinc = if u == 0.0 { middle / PI } else { (middle * u).sin() / (PI * u) };
             sinc * window / bessel_i0(shape)
         });
-        Self { half, sinc }
+        Self { half, highest: cutoff + transition, sinc }
     }
 
     /// How far from an angle the average reaches, radians.
     pub fn reach(&self) -> f64 {
         self.half + SUN_ANGULAR_RADIUS
+    }
+
+    /// How far the low-pass filter alone reaches, radians.
+    pub(super) fn half_width(&self) -> f64 {
+        self.half
+    }
+
+    /// The fastest beat that passes, radians⁻¹.
+    pub(super) fn highest(&self) -> f64 {
+        self.highest
+    }
+
+    /// The low-pass filter alone, at an angle from its middle.
+    pub(super) fn low_pass(&self, angle: f64) -> f64 {
+        self.sinc.at(angle)
     }
 
     /// The kernel of a disc with this limb darkening.

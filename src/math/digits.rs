@@ -6,9 +6,34 @@ pub fn to_digits(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 
+/// Metres to nanometres, free of the noise that the division leaves in the last digits.
+pub fn nm(metres: f64) -> f64 {
+    tidy(metres * 1e9)
+}
+
+/// Radians to degrees, tidied likewise.
+pub fn degree(radians: f64) -> f64 {
+    tidy(radians.to_degrees())
+}
+
+/// Round to 13 significant digits where that changes the last bits only.
+pub fn tidy(value: f64) -> f64 {
+    let rounded = to_digits(value, 13);
+    if (rounded - value).abs() <= 4.0 * f64::EPSILON * value.abs() { rounded } else { value }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::to_digits;
+    use super::{degree, nm, to_digits};
+
+    #[test]
+    fn tidied_degrees_are_exact_where_they_can_be() {
+        for i in 0..=1800 {
+            let exact = f64::from(i) / 10.0;
+            assert!((degree(exact.to_radians()) - exact).abs() <= 1e-13 * exact);
+        }
+        assert_eq!(nm(550.0e-9), 550.0);
+    }
 
     #[test]
     fn noise_goes_and_the_rest_stays() {

@@ -9,7 +9,7 @@
 //! ```
 //! Numbers of particles are per size; `spread` is the standard deviation of ln(radius).
 
-use crate::size_distribution::SizeDistribution;
+use crate::size_distribution::{SizeDistribution, SizeLaw};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -35,31 +35,31 @@ impl SizeKeys {
     /// The first number that is not, and what would be.
     pub fn checked(&self) -> Result<SizeDistribution, String> {
         let radius = |name: &str, um: f64| within(name, um, RADII_UM).map(|um| um * 1e-6);
-        Ok(match *self {
-            Self::Delta { radius_um } => {
-                SizeDistribution::Delta { radius: radius("radius_um", radius_um)? }
-            }
-            Self::Normal { mean_radius_um: mean, deviation_um } => SizeDistribution::Normal {
+        let law = match *self {
+            Self::Delta { radius_um } => SizeLaw::Delta { radius: radius("radius_um", radius_um)? },
+            Self::Normal { mean_radius_um: mean, deviation_um } => SizeLaw::Normal {
                 mean: radius("mean_radius_um", mean)?,
                 deviation: 1e-6 * within("deviation_um", deviation_um, (1e-4 * mean, 0.5 * mean))?,
             },
-            Self::LogNormal { median_radius_um, spread } => SizeDistribution::LogNormal {
+            Self::LogNormal { median_radius_um, spread } => SizeLaw::LogNormal {
                 median: radius("median_radius_um", median_radius_um)?,
                 spread: within("spread", spread, (1e-4, 1.0))?,
             },
-            Self::Gamma { effective_radius_um, effective_variance } => SizeDistribution::Gamma {
-                effective_radius: radius("effective_radius_um", effective_radius_um)?,
-                effective_variance: within("effective_variance", effective_variance, (1e-6, 0.45))?,
-            },
+            Self::Gamma { effective_radius_um, effective_variance } => SizeLaw::gamma(
+                radius("effective_radius_um", effective_radius_um)?,
+                within("effective_variance", effective_variance, (1e-6, 0.45))?,
+            ),
             Self::MarshallPalmer { rain_rate_mm_h, from_radius_um: from, to_radius_um: to } => {
                 let (low, high) = (radius("from_radius_um", from)?, radius("to_radius_um", to)?);
                 if low >= high {
                     return Err(format!("from_radius_um = {from} must be less than {to}"));
                 }
                 let rain_rate = within("rain_rate_mm_h", rain_rate_mm_h, (1e-3, 1e3))?;
-                SizeDistribution::MarshallPalmer { rain_rate, from: low, to: high }
+                let law = SizeLaw::marshall_palmer(rain_rate);
+                return SizeDistribution::between(law, low, high).map_err(|e| e.to_string());
             }
-        })
+        };
+        SizeDistribution::whole(law).map_err(|error| error.to_string())
     }
 }
 

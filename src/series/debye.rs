@@ -72,6 +72,9 @@ pub struct Cut {
     /// The waves behind the cut.
     pub electric: Vec<Behind>,
     pub magnetic: Vec<Behind>,
+    /// Absorption efficiency without the beats of the waves behind the cut: its mean over sizes is
+    /// the mean absorption, but it has no resonances.
+    pub q_abs: f64,
 }
 
 /// A partial wave's orders behind a cut: `-first Σ_{j≥0} internal^j`.
@@ -83,11 +86,51 @@ pub struct Behind {
     pub internal: Complex64,
 }
 
+/// Share of a wave that is not reflected inside, at least, and in units of what is transmitted.
+const LOSS: f64 = 1e-10;
+const LEAK: f64 = 0.5;
+
+/// One polarisation of a partial wave cut behind an order.
+struct CutWave {
+    kept: Complex64,
+    behind: Behind,
+    /// `Re a - |a|²` without the beats of the orders behind.
+    absorbed: f64,
+}
+
 impl Interface {
-    fn cut(&self, last: u32) -> (Complex64, Behind) {
-        let turns = self.internal.powu(last);
+    /// Whether its orders fade: deep in absorbing spheres waves do not run about, |R| may exceed 1, and
+    /// the sum over orders has a closed form but no meaning. A narrow resonance leaks what enters it.
+    fn fades(&self, loss: f64) -> bool {
+        loss > LOSS && loss * loss > LEAK * LEAK * self.transmission.norm_sqr()
+    }
+
+    /// The orders above one.
+    fn rest(&self, order: u32) -> Complex64 {
+        0.5 * self.all_internal * self.internal.powu(order)
+    }
+
+    /// Inside, the power of all orders together goes as
+    /// `1/|1 - R|² = [1 + 2 Re Σ_{k≥1} R^k]/(1 - |R|²)` with R = R11, a series of beats of k chords
+    /// (Poisson's kernel); what stands before it has beats of one chord at most.
+    fn cut(&self, last: u32) -> CutWave {
+        let r = self.internal;
+        let loss = 1.0 - r.norm_sqr();
+        if !self.fades(loss) {
+            let kept = self.outside - 0.5 * self.all_internal;
+            let behind = Behind { first: Complex64::ZERO, internal: r };
+            return CutWave { kept, behind, absorbed: self.absorbed };
+        }
+        let turns = r.powu(last);
+        let mut absorbed = 0.0;
+        if self.absorbed != 0.0 {
+            let away = 1.0 - r;
+            let beats = r * (1.0 - turns) * away.conj();
+            absorbed = self.absorbed * (away.norm_sqr() + 2.0 * beats.re) / loss;
+        }
         let kept = self.outside - 0.5 * self.all_internal * (1.0 - turns);
-        (kept, Behind { first: 0.5 * self.transmission * turns, internal: self.internal })
+        let behind = Behind { first: 0.5 * self.transmission * turns, internal: r };
+        CutWave { kept, behind, absorbed }
     }
 }
 
@@ -152,27 +195,45 @@ impl DebyeSeries {
         }
     }
 
-    /// Absorption efficiency: no cut of the series comes in.
-    pub fn q_abs(&self) -> f64 {
-        let waves = self.electric.iter().zip(&self.magnetic).enumerate();
-        let absorbed = |(k, (e, m)): (usize, (&Interface, &Interface))| {
-            (2 * k + 3) as f64 * (e.absorbed + m.absorbed)
-        };
-        2.0 / (self.size_parameter * self.size_parameter) * waves.map(absorbed).sum::<f64>()
-    }
-
     /// The series cut behind an order: see [`Cut`].
     pub fn cut(&self, last: u32) -> Cut {
-        let (a, electric) = self.electric.iter().map(|wave| wave.cut(last)).unzip();
-        let (b, magnetic) = self.magnetic.iter().map(|wave| wave.cut(last)).unzip();
-        Cut { a, b, electric, magnetic }
+        let count = self.electric.len();
+        let (mut a, mut b) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let (mut electric, mut magnetic) = (Vec::with_capacity(count), Vec::with_capacity(count));
+        let mut absorbed = 0.0;
+        for (k, (e, m)) in self.electric.iter().zip(&self.magnetic).enumerate() {
+            let (e, m) = (e.cut(last), m.cut(last));
+            absorbed += (2 * k + 3) as f64 * (e.absorbed + m.absorbed);
+            a.push(e.kept);
+            b.push(m.kept);
+            electric.push(e.behind);
+            magnetic.push(m.behind);
+        }
+        let q_abs = 2.0 / (self.size_parameter * self.size_parameter) * absorbed;
+        Cut { a, b, electric, magnetic, q_abs }
+    }
+
+    /// What diffraction and all orders up to `last` leave out, relative to Lorenz–Mie without
+    /// diffraction: root mean square of the amplitudes over all directions.
+    pub fn missing_share(&self, last: u32) -> f64 {
+        let (mut missing, mut scattered) = (0.0, 0.0);
+        for (k, waves) in self.electric.iter().zip(&self.magnetic).enumerate() {
+            for wave in [waves.0, waves.1] {
+                let odd = (2 * k + 3) as f64;
+                missing += odd * wave.rest(last).norm_sqr();
+                let whole = self.part(k + 1, wave, Term::All);
+                let diffraction = self.part(k + 1, wave, Term::Diffraction);
+                scattered += odd * (whole - diffraction).norm_sqr();
+            }
+        }
+        if missing == 0.0 { 0.0 } else { (missing / scattered).sqrt() }
     }
 
     /// Largest part of any coefficient that the orders above `order` still hold,
     /// `|½ T R11^order / (1 - R11)|`: the error of stopping there.
     pub fn remainder(&self, order: u32) -> f64 {
-        let rest = |wave: &Interface| (0.5 * wave.all_internal * wave.internal.powu(order)).norm();
-        self.electric.iter().chain(&self.magnetic).map(rest).fold(0.0, f64::max)
+        let waves = self.electric.iter().chain(&self.magnetic);
+        waves.map(|wave| wave.rest(order).norm()).fold(0.0, f64::max)
     }
 }
 

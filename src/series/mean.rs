@@ -1,22 +1,29 @@
 //! Means over drop sizes and over a band of wavelengths, with a stated error.
 //!
 //! The integrand has ever narrower resonances; equal steps in x converge to it only as 1/steps
-//! (a gamma distribution about x = 114 needs 5·10⁵ sizes for 1e-4). So the Debye series is cut
-//! behind an order Q: up to there the intensity is band-limited in x by the longest path, and the
-//! rule of equal steps has no error once the step resolves that path, whatever the number of
-//! steps; the orders behind the cut enter by their mean power (`behind.rs`). Q grows until
-//! the difference to Q/2 says that the error is met.
+//! (a gamma distribution about x = 114 needs 5·10⁵ sizes for 1e-4). So for spheres that have narrow
+//! resonances the Debye series is cut behind an order Q: up to there the intensity is band-limited
+//! in x by the longest path, and the rule of equal steps has no error once the step resolves that
+//! path, whatever the number of steps; the orders behind the cut enter by their mean power
+//! (`behind.rs`), absorption without its beats. Q grows until the difference to Q/2 says that the
+//! error is met.
+//!
+//! Small spheres have no narrow resonances, and too few waves for orders to average out: they enter
+//! with their exact coefficients on Gauss panels, halved until they agree (`mean_nodes.rs`).
 
-use super::mean_sum::{Node, Summed, fine_and_coarse};
-use super::{SeriesError, checked_term_count};
+use super::SeriesError;
+use super::mean_nodes::{Line, ZoneError};
+use super::mean_sum::{Summed, exact, fine_and_coarse};
 use crate::medium::{Medium, MediumError};
 use crate::size_distribution::SizeDistribution;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// What is averaged: spheres of a medium at one wavelength of a table.
 #[derive(Clone, Debug)]
 pub struct Ensemble<'a> {
+    /// Number of spheres by radius.
     pub sizes: SizeDistribution,
+    /// What they are made of.
     pub medium: &'a Medium,
     /// Wavelength in vacuum, metres.
     pub wavelength: f64,
@@ -24,26 +31,47 @@ pub struct Ensemble<'a> {
     pub bandwidth: f64,
     /// Relative error asked for.
     pub tolerance: f64,
+    /// Whether a mean that does not meet it is given all the same, with its error.
+    pub accept_unmet: bool,
 }
 
 /// Why an average cannot be taken.
 #[derive(Debug, thiserror::Error)]
 pub enum MeanError {
+    /// A size or an index that the series does not accept.
     #[error(transparent)]
     Series(#[from] SeriesError),
+    /// A wavelength outside the data.
     #[error(transparent)]
     Medium(#[from] MediumError),
+    /// More spheres than anybody would wait for.
     #[error(
         "the average over sizes or wavelengths from size parameter {from:.0} to {to:.0} needs \
          {steps:.1e} spheres: accepted are at most {MAX_STEPS:e}; take a narrower distribution, \
          smaller particles or a larger tolerance"
     )]
-    TooLong { from: f64, to: f64, steps: f64 },
+    TooLong {
+        /// Least size parameter.
+        from: f64,
+        /// Largest size parameter.
+        to: f64,
+        /// Number of spheres.
+        steps: f64,
+    },
+    /// The error asked for is out of reach.
     #[error(
-        "tolerance = {asked}: the mean at {wavelength_nm} nm is worth {reached:.1e}; ask for less, or \
-         have the table marked (model.allow_unmet_tolerance = true, --allow-unmet-tolerance)"
+        "the average over sizes or wavelengths did not converge: relative error {reached:.1e} with \
+         {spheres} spheres, asked for {asked:e}; take a larger tolerance, or have \
+         the table marked (model.allow_unmet_tolerance = true, --allow-unmet-tolerance)"
     )]
-    Unmet { wavelength_nm: f64, reached: f64, asked: f64 },
+    NotMet {
+        /// The tolerance.
+        asked: f64,
+        /// The least error that was reached.
+        reached: f64,
+        /// Spheres of the last attempt.
+        spheres: usize,
+    },
 }
 
 /// Mean per particle.
@@ -51,183 +79,282 @@ pub enum MeanError {
 pub struct Mean {
     /// S11, S12, S33, S34 by angle as areas per solid angle, m²/sr.
     pub elements: Vec<[f64; 4]>,
-    /// Cross-sections, m².
+    /// Scattering cross-section, m².
     pub scattering: f64,
+    /// Absorption cross-section, m².
     pub absorption: f64,
+    /// Mean cosine of the scattering angle.
     pub asymmetry: f64,
-    /// Relative error, root mean square over all angles, estimated from half the cut.
+    /// Relative error: the largest of that of S11, root mean square over all angles, of scattering
+    /// and of absorption, estimated from half the cut and from panels twice as wide.
     pub error: f64,
     /// Spheres that were solved.
     pub spheres: usize,
 }
 
-/// Order of the first cut at a tolerance of 1e-4, and its least; the rest is up to the estimate.
-const CUT: (f64, f64) = (28.0, 8.0);
+/// Order of the first cut at a tolerance of 1e-4, its least and its most.
+const CUT: (f64, f64, f64) = (28.0, 8.0, 256.0);
 /// Most orders before the cut.
-const MAX_CUT: u32 = 256;
-/// The longest paths kept that carry light are those of rays near the rim, `2 √(n² - 1)` radii per
-/// order; with this margin, and this much for the ways outside, the steps resolve the beat of the
-/// last order with diffraction, and more steps change nothing.
-const PATH_MARGIN: f64 = 1.1;
-const WAYS_OUTSIDE: f64 = 4.0;
+const MAX_CUT: u32 = 1 << 14;
 /// Most spheres of one average.
 const MAX_STEPS: f64 = 1e7;
+/// Most halvings of the panels.
+const MAX_LEVEL: u32 = 12;
 /// Share of the light in the neglected tails of the distribution, in units of the tolerance.
 const TAIL: f64 = 0.2;
-/// The largest spheres cost most and count least: those beyond which this share of the light lies
-/// have half the orders before the cut, then a quarter. An error falls about as cut⁻⁵.
-const RARE: [f64; 2] = [1e-2, 1e-3];
 /// Cut Q is at least that much more exact than Q/2 (measured: 2 to 10 times).
 const GAIN: f64 = 2.0;
-/// Angles at which the two cuts are compared.
+/// Angles at which the two are compared.
 const COMPARED: usize = 61;
 /// Standard deviation of the band `cos²` in units of its full width at half maximum.
 const BAND_DEVIATION: f64 = 0.361_512_4;
+/// What three places on the narrower of two distributions leave, in units of the sixth power of the
+/// ratio of their widths.
+const THREE_PLACES: f64 = 1.0 / 8.0;
+/// Least number of wavelengths of a band that is about as wide as the distribution of sizes.
+const LEAST_BAND: f64 = 16.0;
+
+/// A part of the spheres summed more finely.
+enum Finer {
+    Small(Compared),
+    Large(Compared),
+}
+
+/// One way of summing a part of the spheres, and the coarser one it is compared with.
+struct Compared {
+    /// At the asked angles, then at those of the comparison.
+    fine: Summed,
+    /// At those of the comparison alone.
+    coarse: Summed,
+    spheres: usize,
+}
 
 impl Ensemble<'_> {
     /// The mean at scattering angles (radians).
     ///
     /// # Errors
-    /// A wavelength outside the medium's data, an index the series does not accept, or more
-    /// spheres than [`MeanError::TooLong`] allows.
+    /// A wavelength outside the medium's data, an index the series does not accept, more spheres than
+    /// [`MeanError::TooLong`] allows, or a tolerance that is not met (unless that is accepted).
     pub fn mean(&self, theta: &[f64]) -> Result<Mean, MeanError> {
-        let spread = !matches!(self.sizes, SizeDistribution::Delta { .. });
-        if !(spread && self.bandwidth > 0.0) {
-            return self.mean_along_one(theta);
+        let one_size = self.sizes.single();
+        if self.bandwidth > 0.0 && one_size.is_none() {
+            return self.over_both(theta);
         }
-        // Over sizes nothing but the slow change of the index is left of the band: three
-        // wavelengths with its mean, variance and skewness are enough.
-        let offset = 3f64.sqrt() * BAND_DEVIATION * self.bandwidth;
+        let line = match one_size {
+            Some(radius) if self.bandwidth > 0.0 => self.band(radius),
+            _ => {
+                let index = self.medium.index(self.wavelength)?;
+                Line::Sizes { sizes: &self.sizes, wavelength: self.wavelength, index }
+            }
+        };
+        self.along(&line, theta)
+    }
+
+    fn band(&self, radius: f64) -> Line<'_> {
+        Line::Band { radius, centre: self.wavelength, width: self.bandwidth, medium: self.medium }
+    }
+
+    /// Over sizes and a band: along the wider of the two nothing but a slow change is left of the
+    /// narrower one, of which three places with its mean and variance are enough.
+    fn over_both(&self, theta: &[f64]) -> Result<Mean, MeanError> {
+        let spread = self.sizes.effective_variance().sqrt();
+        let ratio = BAND_DEVIATION * self.bandwidth / self.wavelength / spread;
+        let three = |deviation: f64| {
+            let offset = 3f64.sqrt() * deviation;
+            [(-offset, 1.0 / 6.0), (0.0, 2.0 / 3.0), (offset, 1.0 / 6.0)]
+        };
         let mut total: Option<Mean> = None;
-        for (shift, weight) in [(-offset, 1.0 / 6.0), (0.0, 2.0 / 3.0), (offset, 1.0 / 6.0)] {
-            let wavelength = self.wavelength + shift;
-            let one = Ensemble { wavelength, bandwidth: 0.0, ..self.clone() };
-            let mean = one.mean_along_one(theta)?;
-            total = Some(match total {
-                None => mean.scaled(weight),
-                Some(sum) => sum.plus(&mean.scaled(weight)),
+        let mut add = |mean: Mean, weight: f64| {
+            let part = mean.scaled(weight);
+            total = Some(match total.take() {
+                None => part,
+                Some(sum) => sum.plus(&part),
             });
+        };
+        if THREE_PLACES * ratio.powi(-6) < self.tolerance {
+            let mean = self.sizes.moment(1.0);
+            let deviation = (self.sizes.moment(2.0) - mean * mean).max(0.0).sqrt();
+            for (shift, weight) in three(deviation) {
+                add(self.along(&self.band(mean + shift), theta)?, weight);
+            }
+        } else if THREE_PLACES * ratio.powi(6) < self.tolerance {
+            for (shift, weight) in three(BAND_DEVIATION * self.bandwidth) {
+                add(self.at(self.wavelength + shift, theta)?, weight);
+            }
+        } else {
+            let count = (2.0 * self.bandwidth / self.wavelength / spread).max(LEAST_BAND).ceil();
+            for i in 0..count as usize {
+                let offset = 2.0 * (i as f64 + 0.5) / count - 1.0;
+                let weight = (0.5 * PI * offset).cos().powi(2) * 2.0 / count;
+                add(self.at(self.wavelength + offset * self.bandwidth, theta)?, weight);
+            }
         }
         total.ok_or_else(|| SeriesError::SizeParameter(f64::NAN).into())
     }
 
-    /// The mean over sizes, or over wavelengths.
-    fn mean_along_one(&self, theta: &[f64]) -> Result<Mean, MeanError> {
+    /// Over sizes at another wavelength.
+    fn at(&self, wavelength: f64, theta: &[f64]) -> Result<Mean, MeanError> {
+        Ensemble { wavelength, bandwidth: 0.0, ..self.clone() }.mean(theta)
+    }
+
+    /// The mean along one line: each of its two parts is made finer until together they are exact
+    /// enough.
+    fn along(&self, line: &Line, theta: &[f64]) -> Result<Mean, MeanError> {
+        let compared = (0..COMPARED).map(|i| PI * i as f64 / (COMPARED - 1) as f64);
+        let all: Vec<f64> = theta.iter().copied().chain(compared).collect();
         let first = CUT.0 * (1e-4 / self.tolerance).powf(0.2);
-        let mut cut = 2 * (0.5 * first.clamp(CUT.1, f64::from(MAX_CUT))).ceil() as u32;
+        let mut cut = 2 * (0.5 * first.clamp(CUT.1, CUT.2)).ceil() as u32;
+        let mut level = 1;
+        let mut small = self.exactly(line, &all, level, None)?;
+        let mut large = self.cut(line, &all, cut)?;
+        let mut least = f64::INFINITY;
         loop {
-            let mean = self.mean_behind(theta, cut)?;
-            if mean.error <= self.tolerance || 2 * cut > MAX_CUT {
-                return Ok(mean);
+            let total = small.fine.clone().plus(&large.fine);
+            let at_compared = total.last(COMPARED);
+            let (error_small, error_large) =
+                (small.error(&at_compared), large.error(&at_compared) / GAIN);
+            let (error, spheres) = (error_small + error_large, small.spheres + large.spheres);
+            if error <= self.tolerance {
+                return Ok(Mean::new(total, theta.len(), error, spheres));
             }
-            cut *= 2;
-        }
-    }
-
-    /// Stretches of radii, ascending, each with its cut.
-    fn zones(&self, cut: u32) -> Vec<(f64, f64, u32)> {
-        let (from, to) = self.sizes.limits(TAIL * self.tolerance);
-        let one_size = matches!(self.sizes, SizeDistribution::Delta { .. });
-        if one_size || self.sizes.has_steps() {
-            return vec![(from, to, cut)];
-        }
-        let mut out = Vec::new();
-        let (mut low, mut cut) = (from, cut);
-        for share in RARE {
-            let high = self.sizes.limits(share).1.min(to);
-            out.push((low, high, cut));
-            (low, cut) = (high, 2 * cut.div_ceil(4));
-        }
-        out.push((low, to, cut));
-        out
-    }
-
-    /// The spheres between two radii with their weights, in ascending order of x.
-    fn nodes(&self, (from, to): (f64, f64), steps: usize) -> Result<Vec<Node>, MeanError> {
-        if self.bandwidth > 0.0 {
-            let SizeDistribution::Delta { radius } = self.sizes else { return Ok(Vec::new()) };
-            return (0..steps).map(|i| self.band_node(radius, i, steps)).collect();
-        }
-        let index = self.medium.index(self.wavelength)?;
-        let (periodic, number) = (self.sizes.has_steps(), self.sizes.number());
-        let nodes = (0..steps).map(|i| {
-            let t = (i as f64 + 0.5) / steps as f64;
-            // sin² steps make a function that ends in a step end smoothly.
-            let (place, share) = if periodic {
-                (t - (TAU * t).sin() / TAU, 1.0 - (TAU * t).cos())
-            } else {
-                (t, 1.0)
+            least = least.min(error);
+            // A sum that is no number never gets better.
+            let (asked, hopeless) = (self.tolerance, !error.is_finite());
+            let finer = match hopeless {
+                true => Ok(None),
+                false => self.finer(line, &all, &small, [error_small, error_large], (level, cut)),
             };
-            let radius = from + (to - from) * place;
-            let weight = share * self.sizes.density(radius) * (to - from) / steps as f64 / number;
-            Node { radius, wavelength: self.wavelength, index, weight }
-        });
-        Ok(nodes.collect())
-    }
-
-    fn band_node(&self, radius: f64, i: usize, steps: usize) -> Result<Node, MeanError> {
-        let (low, high) = (self.wavelength - self.bandwidth, self.wavelength + self.bandwidth);
-        let (slow, fast) = (1.0 / high, 1.0 / low);
-        let wavenumber = slow + (fast - slow) * (i as f64 + 0.5) / steps as f64;
-        let wavelength = 1.0 / wavenumber;
-        let place = 0.5 * PI * (wavelength - self.wavelength) / self.bandwidth;
-        // cos² by wavelength with the integral 1, dλ = λ² dν.
-        let width = (fast - slow) / steps as f64;
-        let weight = place.cos().powi(2) * wavelength * wavelength * width / self.bandwidth;
-        Ok(Node { radius, wavelength, index: self.medium.index(wavelength)?, weight })
-    }
-
-    /// The mean with the series cut behind an order, and its difference to half that order.
-    fn mean_behind(&self, theta: &[f64], cut: u32) -> Result<Mean, MeanError> {
-        let compared: Vec<f64> =
-            (0..COMPARED).map(|i| PI * i as f64 / (COMPARED - 1) as f64).collect();
-        let all: Vec<f64> = theta.iter().chain(&compared).copied().collect();
-        let (mut spheres, mut sums): (usize, Option<[Summed; 2]>) = (0, None);
-        for (from, to, cut) in self.zones(cut) {
-            let nodes = self.nodes((from, to), self.steps((from, to), cut)?)?;
-            spheres += nodes.len();
-            let zone = fine_and_coarse(&nodes, cut, &all, &compared)?;
-            sums = Some(match sums {
-                None => zone,
-                Some([fine, coarse]) => {
-                    let [more, more_coarse] = zone;
-                    [Summed::plus(fine, &more), Summed::plus(coarse, &more_coarse)]
+            match finer {
+                Ok(Some(Finer::Small(better))) => (small, level) = (better, level + 1),
+                Ok(Some(Finer::Large(better))) => (large, cut) = (better, 2 * cut),
+                Ok(None) | Err(MeanError::TooLong { .. }) if self.accept_unmet && !hopeless => {
+                    return Ok(Mean::new(total, theta.len(), error, spheres));
                 }
-            });
+                Ok(None) | Err(MeanError::TooLong { .. }) => {
+                    return Err(MeanError::NotMet { asked, reached: least, spheres });
+                }
+                Err(other) => return Err(other),
+            }
         }
-        let Some([mut fine, coarse]) = sums else {
-            return Err(SeriesError::SizeParameter(f64::NAN).into());
-        };
-        let at_compared = fine.elements.split_off(theta.len());
-        Ok(Mean {
-            elements: fine.elements,
-            scattering: fine.scattering,
-            absorption: fine.absorption,
-            asymmetry: fine.asymmetry,
-            error: difference(&at_compared, &coarse.elements) / GAIN,
-            spheres,
-        })
     }
 
-    /// Number of steps between two radii with the series cut behind an order: even.
-    fn steps(&self, (from, to): (f64, f64), cut: u32) -> Result<usize, MeanError> {
-        let reach = self.bandwidth;
-        let (from, to) =
-            (TAU * from / (self.wavelength + reach), TAU * to / (self.wavelength - reach));
-        let index = self.medium.index(self.wavelength)?;
-        let per_order = 2.0 * (index.re * index.re - 1.0).max(0.06).sqrt();
-        let longest = PATH_MARGIN * per_order * f64::from(cut) + WAYS_OUTSIDE;
-        let stretch = if self.sizes.has_steps() { 2.0 } else { 1.0 };
-        let steps = stretch * (to - from) * longest / TAU;
-        if steps > MAX_STEPS {
-            return Err(MeanError::TooLong { from, to, steps });
+    /// The next attempt at the part that errs more, given both errors and how fine they are; `None`
+    /// where neither can be finer.
+    fn finer(
+        &self,
+        line: &Line,
+        all: &[f64],
+        small: &Compared,
+        [error_small, error_large]: [f64; 2],
+        (level, cut): (u32, u32),
+    ) -> Result<Option<Finer>, MeanError> {
+        if error_small > error_large && error_small > 0.5 * self.tolerance {
+            if level == MAX_LEVEL {
+                return Ok(None);
+            }
+            let before = small.fine.last(COMPARED);
+            return Ok(Some(Finer::Small(self.exactly(line, all, level + 1, Some(before))?)));
         }
-        checked_term_count(to, index)?;
-        Ok(2 * (0.5 * steps.max(64.0)).ceil() as usize)
+        if 2 * cut > MAX_CUT {
+            return Ok(None);
+        }
+        Ok(Some(Finer::Large(self.cut(line, all, 2 * cut)?)))
+    }
+
+    /// The small spheres, on panels halved `level` times, and on wider ones.
+    fn exactly(
+        &self,
+        line: &Line,
+        all: &[f64],
+        level: u32,
+        before: Option<Summed>,
+    ) -> Result<Compared, MeanError> {
+        let tail = TAIL * self.tolerance;
+        let too_long = |steps| {
+            let (from, to) = line.range(tail);
+            MeanError::TooLong { from, to, steps }
+        };
+        let nodes = line.exact(tail, level, MAX_STEPS)?.map_err(too_long)?;
+        let coarse = match before {
+            Some(before) => before,
+            None => {
+                let nodes = line.exact(tail, level - 1, MAX_STEPS)?.map_err(too_long)?;
+                exact(&nodes, &all[all.len() - COMPARED..])?
+            }
+        };
+        Ok(Compared { fine: exact(&nodes, all)?, coarse, spheres: nodes.len() })
+    }
+
+    /// The large spheres, with the series cut behind an order, and behind half of it.
+    fn cut(&self, line: &Line, all: &[f64], cut: u32) -> Result<Compared, MeanError> {
+        let tail = TAIL * self.tolerance;
+        let compared = &all[all.len() - COMPARED..];
+        let zones = line.zones(tail, cut, MAX_STEPS)?.map_err(|steps| {
+            let (from, to) = line.range(tail);
+            MeanError::TooLong { from, to, steps }
+        })?;
+        let (mut fine, mut coarse) = (Summed::nothing(all.len()), Summed::nothing(COMPARED));
+        let mut spheres = 0;
+        for zone in zones {
+            let [more, more_coarse] = fine_and_coarse(&zone.nodes, zone.cut, all, compared)?;
+            (fine, coarse) = (fine.plus(&more), coarse.plus(&more_coarse));
+            spheres += zone.nodes.len();
+        }
+        Ok(Compared { fine, coarse, spheres })
+    }
+}
+
+impl From<ZoneError> for MeanError {
+    fn from(error: ZoneError) -> Self {
+        match error {
+            ZoneError::Series(error) => error.into(),
+            ZoneError::Medium(error) => error.into(),
+        }
+    }
+}
+
+impl Compared {
+    /// The difference of the two in units of a total at the angles of the comparison.
+    fn error(&self, total: &Summed) -> f64 {
+        if self.spheres == 0 {
+            return 0.0;
+        }
+        let fine = self.fine.last(COMPARED);
+        let rows = fine.elements.iter().zip(&self.coarse.elements).zip(&total.elements);
+        let squares = rows.map(|((a, b), of)| ((b[0] - a[0]) / of[0]).powi(2));
+        let angles = (squares.sum::<f64>() / COMPARED as f64).sqrt();
+        let scattering = (fine.scattering - self.coarse.scattering).abs() / total.scattering;
+        let mut absorption = (fine.absorption - self.coarse.absorption).abs();
+        if absorption > 0.0 {
+            absorption /= total.absorption;
+        }
+        // NaN must not be lost.
+        [angles, scattering, absorption].into_iter().fold(0.0, |most: f64, error| {
+            if error.is_nan() {
+                error
+            } else if most.is_nan() {
+                most
+            } else {
+                most.max(error)
+            }
+        })
     }
 }
 
 impl Mean {
+    fn new(total: Summed, angles: usize, error: f64, spheres: usize) -> Mean {
+        let mut elements = total.elements;
+        elements.truncate(angles);
+        Mean {
+            elements,
+            scattering: total.scattering,
+            absorption: total.absorption,
+            asymmetry: total.forward / total.scattering,
+            error,
+            spheres,
+        }
+    }
+
     fn scaled(mut self, factor: f64) -> Mean {
         self.elements.iter_mut().flatten().for_each(|value| *value *= factor);
         self.scattering *= factor;
@@ -248,10 +375,4 @@ impl Mean {
         self.spheres += other.spheres;
         self
     }
-}
-
-/// Root mean square of the relative difference of S11.
-fn difference(fine: &[[f64; 4]], coarse: &[[f64; 4]]) -> f64 {
-    let squares = fine.iter().zip(coarse).map(|(a, b)| (b[0] / a[0] - 1.0).powi(2));
-    (squares.sum::<f64>() / fine.len() as f64).sqrt()
 }

@@ -6,13 +6,14 @@
 //! of spheres are summed on such a grid, each of the degree its largest sphere needs, and the mean
 //! alone is carried to the asked angles ([`CosineSeries`]); that changes rounding only.
 //!
-//! One pass serves the mean and the coarser one it is compared with, which takes every second
-//! sphere and half as many orders.
+//! Spheres enter with their exact coefficients, or with the Debye series cut behind an order and the
+//! mean power of the rest. Of the latter, one pass serves the mean and the coarser one it is compared
+//! with, which takes every second sphere and half as many orders.
 
 use super::angular::{self, AngleSet};
 use super::behind::{Products, Waves};
 use super::debye::{Cut, DebyeSeries};
-use super::lorenz_mie::sums;
+use super::lorenz_mie::{Sphere, sums};
 use super::{SeriesError, checked_term_count};
 use crate::math::cosine_series::{self, CosineSeries};
 use num_complex::Complex64;
@@ -46,26 +47,72 @@ impl Node {
 }
 
 /// What spheres add up to at some angles.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Summed {
     /// S11, S12, S33, S34 as areas per solid angle, m²/sr.
     pub elements: Vec<[f64; 4]>,
     /// Cross-sections, m².
     pub scattering: f64,
     pub absorption: f64,
-    pub asymmetry: f64,
+    /// Scattering times the mean cosine.
+    pub forward: f64,
 }
 
 impl Summed {
+    /// Nothing at so many angles.
+    pub fn nothing(angles: usize) -> Summed {
+        let elements = vec![[0.0; 4]; angles];
+        Summed { elements, scattering: 0.0, absorption: 0.0, forward: 0.0 }
+    }
+
     /// With other spheres.
     pub fn plus(mut self, other: &Summed) -> Summed {
         add_rows(&mut self.elements, &other.elements);
-        let forward = self.asymmetry * self.scattering + other.asymmetry * other.scattering;
         self.scattering += other.scattering;
-        self.asymmetry = forward / self.scattering;
         self.absorption += other.absorption;
+        self.forward += other.forward;
         self
     }
+
+    /// At the last angles alone.
+    pub fn last(&self, count: usize) -> Summed {
+        let elements = self.elements[self.elements.len() - count..].to_vec();
+        Summed { elements, ..*self }
+    }
+}
+
+/// Sum spheres with their exact coefficients at scattering angles (radians).
+pub(super) fn exact(nodes: &[Node], theta: &[f64]) -> Result<Summed, SeriesError> {
+    let set = AngleSet::new(theta);
+    let length = nodes.len().div_ceil(PARTS).max(1);
+    let parts: Vec<Sum> = nodes
+        .par_chunks(length)
+        .rev()
+        .with_max_len(1)
+        .map(|nodes| {
+            let mut sum = Sum::new(&set, most_terms(nodes)?, 0);
+            for node in nodes {
+                let sphere = Sphere::new(node.size_parameter(), node.index)?;
+                sum.add_waves(
+                    sphere.a(),
+                    sphere.b(),
+                    sphere.efficiencies().q_abs,
+                    node,
+                    node.weight,
+                );
+            }
+            Ok(sum)
+        })
+        .collect::<Result<_, SeriesError>>()?;
+    let mut total = Total::default();
+    parts.into_iter().for_each(|sum| total.add(sum));
+    Ok(total.at(theta))
+}
+
+fn most_terms(nodes: &[Node]) -> Result<usize, SeriesError> {
+    nodes.iter().try_fold(0, |most, node| {
+        Ok(most.max(checked_term_count(node.size_parameter(), node.index)?))
+    })
 }
 
 /// Sum all spheres with the series cut behind an order, and every second one with twice its weight
@@ -103,10 +150,7 @@ fn part<'a>(
     sets: &'a [AngleSet; 2],
     cut: u32,
 ) -> Result<[Sum<'a>; 2], SeriesError> {
-    let mut terms = 0;
-    for node in &nodes[range.clone()] {
-        terms = terms.max(checked_term_count(node.size_parameter(), node.index)?);
-    }
+    let terms = most_terms(&nodes[range.clone()])?;
     let (mut fine, mut coarse) =
         (Sum::new(&sets[0], terms, cut), Sum::new(&sets[1], terms, cut / 2));
     let last = (range.end + 1).min(nodes.len());
@@ -175,16 +219,28 @@ impl<'a> Sum<'a> {
     /// Add a sphere; if it is not `own`, only the way to it.
     fn add(&mut self, series: &DebyeSeries, node: &Node, weight: f64, own: bool) {
         let scale = weight * node.area();
-        let Cut { a, b, electric, magnetic } = series.cut(self.cut);
+        let Cut { a, b, electric, magnetic, q_abs } = series.cut(self.cut);
         let waves = Waves::new(&electric, &magnetic, scale);
         if let Some(before) = &self.before {
             self.behind.add_stretch(before, &waves);
         }
         self.before = Some(waves);
-        if !own {
-            return;
+        if own {
+            self.add_waves(&a, &b, q_abs, node, weight);
         }
-        let amplitudes = angular::amplitudes(&a, &b, self.set());
+    }
+
+    /// Add partial waves, and what the sphere absorbs.
+    fn add_waves(
+        &mut self,
+        a: &[Complex64],
+        b: &[Complex64],
+        q_abs: f64,
+        node: &Node,
+        weight: f64,
+    ) {
+        let scale = weight * node.area();
+        let amplitudes = angular::amplitudes(a, b, self.set());
         for (sum, (s1, s2)) in self.elements.iter_mut().zip(amplitudes) {
             let (perpendicular, parallel, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
             sum[0] += scale * 0.5 * (parallel + perpendicular);
@@ -192,12 +248,10 @@ impl<'a> Sum<'a> {
             sum[2] += scale * cross.re;
             sum[3] -= scale * cross.im;
         }
-        let (scattered, forward) = sums(&a, &b);
+        let (scattered, forward) = sums(a, b);
         self.scattering += scale * TAU * scattered;
         self.forward += scale * 2.0 * TAU * forward;
-        if node.index.im > 0.0 {
-            self.absorption += weight * series.q_abs() * PI * node.radius * node.radius;
-        }
+        self.absorption += weight * q_abs * PI * node.radius * node.radius;
     }
 }
 
@@ -243,7 +297,9 @@ impl Total {
             series.add(&CosineSeries::fit(values));
         }
         let degree = grid_degree(2 * self.behind.waves());
-        if degree < theta.len() {
+        if self.behind.waves() == 0 {
+            // Exact coefficients leave nothing behind.
+        } else if degree < theta.len() {
             let grid = cosine_series::points(degree);
             series.add(&CosineSeries::fit(&self.behind.elements(&grid)));
         } else {
@@ -256,7 +312,7 @@ impl Total {
             elements,
             scattering,
             absorption: self.absorption,
-            asymmetry: (self.forward + 2.0 * TAU * forward) / scattering,
+            forward: self.forward + 2.0 * TAU * forward,
         }
     }
 }

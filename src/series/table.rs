@@ -81,7 +81,7 @@ pub fn sphere_slab(
     forward_peak: ForwardPeak,
 ) -> Result<Slab, MeanError> {
     let (wavelength, index) = (job.wavelength, job.medium.index(job.wavelength)?);
-    let largest = TAU * job.sizes.limits(job.tolerance).1 / wavelength;
+    let largest = TAU * job.sizes.limits(job.tolerance, TAU / wavelength).1 / wavelength;
     let mut cells = Vec::new();
     if forward_peak == ForwardPeak::CellAverage {
         cells = coarse_cells(theta, largest);
@@ -167,8 +167,8 @@ impl SphereJob<'_> {
 
     /// The curves of a point-like sun.
     fn curves(&self, index: Complex64, theta: &[f64]) -> Result<Curves, MeanError> {
-        let radius = match self.sizes {
-            SizeDistribution::Delta { radius } if self.bandwidth == 0.0 => radius,
+        let radius = match self.sizes.single() {
+            Some(radius) if self.bandwidth == 0.0 => radius,
             _ => return self.mean_curves(theta),
         };
         let x = TAU * radius / self.wavelength;
@@ -182,7 +182,8 @@ impl SphereJob<'_> {
             }
             // Cross-sections are those of the whole sphere, the terms part of it.
             Source::Debye(terms) => {
-                (DebyeSeries::new(x, index)?.sum_parallel(terms, theta), None, f64::NAN)
+                let series = DebyeSeries::new(x, index)?;
+                (series.sum_parallel(terms, theta), None, debye_error(&series, terms))
             }
         };
         let shadow = PI * radius * radius;
@@ -200,20 +201,14 @@ impl SphereJob<'_> {
 
     fn mean_curves(&self, theta: &[f64]) -> Result<Curves, MeanError> {
         let ensemble = Ensemble {
-            sizes: self.sizes,
+            sizes: self.sizes.clone(),
             medium: self.medium,
             wavelength: self.wavelength,
             bandwidth: self.bandwidth,
             tolerance: self.tolerance,
+            accept_unmet: self.allow_unmet,
         };
         let mean = ensemble.mean(theta)?;
-        if !self.allow_unmet && !(mean.error <= self.tolerance) {
-            return Err(MeanError::Unmet {
-                wavelength_nm: self.wavelength * 1e9,
-                reached: mean.error,
-                asked: self.tolerance,
-            });
-        }
         Ok(Curves {
             elements: mean.elements,
             scattering: mean.scattering,
@@ -224,6 +219,18 @@ impl SphereJob<'_> {
             error: mean.error,
         })
     }
+}
+
+/// Relative error of the intensity that a sum from diffraction and order 0 on has for its missing
+/// orders, root mean square over their phases; NaN for single orders, which stand for themselves.
+fn debye_error(series: &DebyeSeries, terms: &[Term]) -> f64 {
+    let count = terms.len().saturating_sub(1) as u32;
+    let whole = (0..count).all(|order| terms.contains(&Term::Order(order)));
+    if !(whole && count > 0 && terms.contains(&Term::Diffraction)) {
+        return f64::NAN;
+    }
+    // ΔI/I = 2 |ΔS/S| cos of the phase between them.
+    (std::f64::consts::SQRT_2 * series.missing_share(count - 1)).max(SERIES_ERROR)
 }
 
 fn of_pair((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {
@@ -283,7 +290,7 @@ mod tests {
                     (0..count).map(|i| PI * i as f64 / (count - 1) as f64).collect();
                 let job = SphereJob {
                     source: Source::LorenzMie,
-                    sizes: SizeDistribution::Delta { radius },
+                    sizes: SizeDistribution::delta(radius),
                     medium: &Medium::Constant(Complex64::new(1.333, 0.0)),
                     wavelength: 5e-7,
                     bandwidth: 0.0,

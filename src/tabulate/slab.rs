@@ -152,9 +152,11 @@ impl Tabulator<'_> {
         }
         if let Some(sigma) = self.filter {
             let bows = gaussian_filter::bows(self.theta, &column.rays);
-            for mut row in values.axis_iter_mut(Axis(0)) {
+            // the rows of the forward peak are still empty
+            let beyond = forward.len();
+            for mut row in values.slice_mut(s![.., beyond..]).axis_iter_mut(Axis(0)) {
                 let raw: Vec<f64> = row.iter().map(|&v| f64::from(v)).collect();
-                let smooth = gaussian_filter::apply(self.theta, &raw, &bows, sigma);
+                let smooth = gaussian_filter::apply(&self.theta[beyond..], &raw, &bows, sigma);
                 row.iter_mut().zip(smooth).for_each(|(v, s)| *v = s as f32);
             }
         }
@@ -239,17 +241,15 @@ impl Tabulator<'_> {
         if self.forward_peak != ForwardPeak::CellAverage || !covers_sphere || with <= without {
             return (1.0, sum_before_peak, share);
         }
-        // Secant steps: the sum is nearly linear in the factor.
-        let whole = 1.0 - self.left_out;
-        let mut factor = 1.0;
-        for _ in 0..8 {
-            let sum = rest + forward(factor);
-            let slope = (sum - rest - without) / factor;
-            factor = (factor + (whole - sum) / slope).clamp(0.05, 4.0);
-            if (whole - sum).abs() < 1e-9 {
-                break;
-            }
-        }
+        // The sum is a + b s + c s² in the root s of the factor: interference of the peak with the rest,
+        // and the peak's own power.
+        let (once, twice) = (with - without, forward(4.0) - without);
+        let own = 0.5 * (twice - 2.0 * once);
+        let mixed = once - own;
+        let missing = 1.0 - self.left_out - rest - without;
+        let discriminant = (mixed * mixed + 4.0 * own * missing).max(0.0);
+        let root = (discriminant.sqrt() - mixed) / (2.0 * own);
+        let factor = (root.max(0.0).powi(2)).clamp(0.05, 4.0);
         (factor, sum_before_peak, share)
     }
 

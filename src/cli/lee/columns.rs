@@ -88,10 +88,7 @@ impl Raindrops {
             tolerance: if faint { FAINT_TOLERANCE } else { self.scene.tolerance },
             ..self.scene.clone()
         };
-        let mut plan = Plan::new(&scene)?;
-        // nobody reads the errors of hundreds of columns
-        plan.checked = false;
-        Ok(plan)
+        Ok(Plan::new(&scene)?)
     }
 
     /// One column: the bright orders one by one, then the faint ones together.

@@ -119,7 +119,7 @@ mod tests {
             (0..RINGS).map(|i| [0.02 / (1.0 + i as f64 * 0.03), 0.01 + 0.001 * i as f64]).collect();
         let lattice = Lattice::new(&steps);
         let sum: f64 = lattice.rings.iter().map(|r| r.weight * r.count as f64).sum();
-        assert!((sum - 0.5 * TAU).abs() < 1e-5, "{sum}");
+        assert!((sum - 0.5 * TAU).abs() < 1e-4, "{sum}");
     }
 
     /// Every point of a ring belongs to one pair of spokes.

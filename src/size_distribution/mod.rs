@@ -1,0 +1,434 @@
+//! Distributions of particle sizes: how many particles there are per size.
+//!
+//! A [`SizeLaw`] between two limits. The density is normalised: the number of particles between the
+//! limits is 1, whatever share of the law lies beyond them ([`SizeDistribution::share_inside`]). So
+//! a mean "per particle" is one per particle inside the limits.
+//!
+//! ```
+//! use gonio::size_distribution::{SizeDistribution, SizeLaw};
+//!
+//! let soot = SizeLaw::LogNormal { median: 11.8e-9, spread: 2f64.ln() };
+//! let soot = SizeDistribution::between(soot, 5e-9, 20e-6).unwrap();
+//! assert!((soot.share_inside() - 0.89229).abs() < 1e-5);
+//! assert!((soot.effective_radius() - 39.37456e-9).abs() < 1e-14);
+//! ```
+
+mod law;
+
+pub use law::SizeLaw;
+
+use crate::math::gauss_legendre;
+
+/// Why a distribution cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SizeError {
+    /// The limits are no interval of radii.
+    #[error("limits = {from} to {to} m: accepted are 0 ≤ from < to")]
+    Limits {
+        /// Metres.
+        from: f64,
+        /// Metres.
+        to: f64,
+    },
+    /// Nothing to average over.
+    #[error("no particles lie between {from:e} and {to:e} m")]
+    Nothing {
+        /// Metres.
+        from: f64,
+        /// Metres.
+        to: f64,
+    },
+    /// The number of particles has no end towards this limit.
+    #[error("the number of particles is infinite without a {0} limit")]
+    Endless(&'static str),
+}
+
+/// Number of particles by radius (metres), 1 in all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeDistribution {
+    law: SizeLaw,
+    from: f64,
+    to: f64,
+    /// Logarithm of the number inside the limits in units of the law's density.
+    ln_number: f64,
+}
+
+/// Panels of the integrals between two breaks, and Gauss nodes in each.
+const PANELS: usize = 240;
+const NODES: usize = 8;
+/// An integrand that has fallen by exp of this counts for nothing.
+const DEPTH: f64 = 60.0;
+/// Radii (metres) that a search for the ends of a law looks at.
+const RADII: (f64, f64) = (1e-30, 1e30);
+/// Power of the radius at which a sphere's light straight ahead grows, and its forward excess where it
+/// is small; beyond size parameters of 1 the first grows as r⁴ alone.
+const SMALL: f64 = 8.0;
+
+impl SizeDistribution {
+    /// Particles of one radius.
+    pub fn delta(radius: f64) -> Self {
+        Self { law: SizeLaw::Delta { radius }, from: radius, to: radius, ln_number: 0.0 }
+    }
+
+    /// A law without limits.
+    ///
+    /// # Errors
+    /// A law that has no end.
+    pub fn whole(law: SizeLaw) -> Result<Self, SizeError> {
+        if let SizeLaw::Delta { radius } = law {
+            return Ok(Self::delta(radius));
+        }
+        Self::between(law, 0.0, f64::INFINITY)
+    }
+
+    /// A law between two radii (0 and ∞: no limit).
+    ///
+    /// # Errors
+    /// Limits that are none, that hold no particles, or that hold no end of them.
+    pub fn between(law: SizeLaw, from: f64, to: f64) -> Result<Self, SizeError> {
+        if !(from >= 0.0 && from < to) {
+            return Err(SizeError::Limits { from, to });
+        }
+        let (low, high) = law.reach();
+        let (inner, outer) = (from.max(low), to.min(high));
+        if inner >= outer {
+            return Err(SizeError::Nothing { from, to });
+        }
+        if let SizeLaw::PowerExponential { exponent, scale, .. } = law {
+            if inner == 0.0 && exponent <= -1.0 {
+                return Err(SizeError::Endless("lower"));
+            }
+            if outer.is_infinite() && scale.is_infinite() {
+                return Err(SizeError::Endless("upper"));
+            }
+        }
+        let mut sizes = Self { law, from: inner, to: outer, ln_number: 0.0 };
+        let peak = sizes.peak();
+        sizes.ln_number = peak;
+        let number = sizes.moment(0.0);
+        if !(number > 0.0 && number.is_finite()) {
+            return Err(SizeError::Nothing { from, to });
+        }
+        sizes.ln_number = peak + number.ln();
+        Ok(sizes)
+    }
+
+    /// The law.
+    pub fn law(&self) -> &SizeLaw {
+        &self.law
+    }
+
+    /// The only radius (metres), if there is but one.
+    pub fn single(&self) -> Option<f64> {
+        match self.law {
+            SizeLaw::Delta { radius } => Some(radius),
+            _ => None,
+        }
+    }
+
+    /// Radii (metres) beyond which there are no particles; 0 and ∞ if nothing bounds them.
+    pub fn bounds(&self) -> (f64, f64) {
+        (self.from, self.to)
+    }
+
+    /// Number per radius, 1/m.
+    pub fn density(&self, radius: f64) -> f64 {
+        if radius < self.from || radius > self.to {
+            return 0.0;
+        }
+        (self.law.ln_density(radius) - self.ln_number).exp()
+    }
+
+    /// Mean of `r^power`, metres to that power.
+    pub fn moment(&self, power: f64) -> f64 {
+        let Some(radius) = self.single() else {
+            return self
+                .weighted(self.span(power, power), |r| r.powf(power))
+                .iter()
+                .map(|w| w.1)
+                .sum();
+        };
+        radius.powf(power)
+    }
+
+    /// Mean of r³ over mean of r²: the radius of the sphere with the same volume per shadow, metres.
+    pub fn effective_radius(&self) -> f64 {
+        self.moment(3.0) / self.moment(2.0)
+    }
+
+    /// Variance of the radius weighted with the shadow, over the squared effective radius.
+    pub fn effective_variance(&self) -> f64 {
+        if self.single().is_some() {
+            return 0.0;
+        }
+        // By differences, since ⟨r⁴⟩⟨r²⟩/⟨r³⟩² - 1 cancels for narrow laws.
+        let mean = self.effective_radius();
+        let weights = self.weighted(self.span(2.0, 4.0), |r| r * r);
+        let shadow: f64 = weights.iter().map(|w| w.1).sum();
+        let square: f64 = weights.iter().map(|(r, w)| w * (r / mean - 1.0).powi(2)).sum();
+        square / shadow
+    }
+
+    /// Share of the law's particles that lie between the limits.
+    pub fn share_inside(&self) -> f64 {
+        match Self::whole(self.law.clone()) {
+            Ok(whole) => (self.ln_number - whole.ln_number).exp().min(1.0),
+            Err(_) => f64::NAN,
+        }
+    }
+
+    /// Stretches of radii between which the density is smooth, ascending, that leave out no more
+    /// than the share `tail` of the light of spheres at a wavenumber (1/m).
+    pub fn stretches(&self, tail: f64, wavenumber: f64) -> Vec<(f64, f64)> {
+        let (low, high) = self.limits(tail, wavenumber);
+        let inner = self.law.breaks().iter().copied().filter(|&r| r > low && r < high);
+        let edges: Vec<f64> = [low].into_iter().chain(inner).chain([high]).collect();
+        let filled = |pair: &&[f64]| self.density(0.5 * (pair[0] + pair[1])) > 0.0;
+        edges.windows(2).filter(filled).map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// Whether the density ends in a step at one of these radii.
+    pub fn has_step(&self, (low, high): (f64, f64)) -> bool {
+        let breaks = self.law.breaks();
+        let step = |r: f64| r == self.from || r == self.to || breaks.contains(&r);
+        step(low) || step(high)
+    }
+
+    /// Radii between which all but the share `tail` lies: at the small end of the shadows (r²), at
+    /// the large one of the light straight ahead of spheres at a wavenumber (1/m).
+    pub fn limits(&self, tail: f64, wavenumber: f64) -> (f64, f64) {
+        if self.single().is_some() {
+            return (self.from, self.to);
+        }
+        let span = (self.span(2.0, 2.0).0, self.span(4.0, SMALL).1);
+        // Where large drops absorb, the small ones shine all the more.
+        let shadows = self.weighted(span, |r| r * r);
+        let total: f64 = shadows.iter().map(|w| w.1).sum();
+        let low = past(shadows.iter(), 0.02 * tail * total).unwrap_or(span.0);
+        let straight = |r: f64| {
+            let x4 = (wavenumber * r).powi(4);
+            (r / span.0).powi(4) * x4 / (1.0 + x4)
+        };
+        let light = self.weighted(span, straight);
+        let total: f64 = light.iter().map(|w| w.1).sum();
+        let high = past(light.iter().rev(), tail * total).unwrap_or(span.1);
+        // The last node inside the neglected share is not the limit itself.
+        let low = if low <= shadows[0].0 { span.0 } else { low };
+        let high = if high >= light[light.len() - 1].0 { span.1 } else { high };
+        if low < high { (low, high) } else { span }
+    }
+
+    /// Largest logarithm of the density times the radius.
+    fn peak(&self) -> f64 {
+        let top = self.top(0.0);
+        let at = |r: f64| self.law.ln_density(r);
+        let breaks = self.law.breaks().iter().map(|r| at(*r)).fold(f64::NEG_INFINITY, f64::max);
+        breaks.max(at(top)).max(at(self.from)).max(at(self.to)).max(-700.0) + top.ln()
+    }
+
+    /// Where the density times `r^power` is largest by ln r, within the limits.
+    fn top(&self, power: f64) -> f64 {
+        let (low, high) = (self.from.max(RADII.0), self.to.min(RADII.1));
+        match self.law.mode(power) {
+            Some(mode) => mode.clamp(low, high),
+            // Falling throughout.
+            None => low,
+        }
+    }
+
+    /// Radii beyond which nothing counts: below with `r^low_power`, above with `r^high_power`.
+    fn span(&self, low_power: f64, high_power: f64) -> (f64, f64) {
+        let (from, to) = (self.from.max(RADII.0), self.to.min(RADII.1));
+        // Limits close to each other, laws of several tops and those that fall all the way.
+        if self.law.mode(low_power).is_none() && self.to.is_finite() {
+            return (from, to);
+        }
+        let end = |power: f64, end: f64| {
+            let top = self.top(power);
+            let value = |u: f64| self.law.ln_density(u.exp()) + (power + 1.0) * u;
+            let (start, bound) = (top.ln(), end.ln());
+            let gone = |u: f64| {
+                let fall = value(start) - value(u);
+                fall.is_nan() || fall >= DEPTH
+            };
+            let mut step = 1e-7;
+            while step < (bound - start).abs() && !gone(start + step * (bound - start).signum()) {
+                step *= 2.0;
+            }
+            if step >= (bound - start).abs() && !gone(bound) {
+                return end;
+            }
+            let far = step.min((bound - start).abs());
+            let (mut inside, mut outside) = (0.0, far);
+            for _ in 0..60 {
+                let middle = 0.5 * (inside + outside);
+                let there = start + middle * (bound - start).signum();
+                if gone(there) { outside = middle } else { inside = middle }
+            }
+            (start + outside * (bound - start).signum()).exp()
+        };
+        (end(low_power, from).max(from), end(high_power, to).min(to))
+    }
+
+    /// Nodes of an integral over a span, in ascending order, with density times `weight` times width.
+    fn weighted(&self, (low, high): (f64, f64), weight: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        let rule = gauss_legendre::nodes(NODES);
+        let inner = self.law.breaks().iter().copied().filter(|&r| r > low && r < high);
+        let edges: Vec<f64> = [low].into_iter().chain(inner).chain([high]).collect();
+        let pieces = edges.len() - 1;
+        let panels = (PANELS / pieces).max(2);
+        let mut out = Vec::with_capacity(pieces * panels * NODES);
+        for pair in edges.windows(2) {
+            let (start, width) = (pair[0].ln(), (pair[1] / pair[0]).ln() / panels as f64);
+            for panel in 0..panels {
+                for &(node, share) in &rule {
+                    let r = (start + (panel as f64 + 0.5 + 0.5 * node) * width).exp();
+                    // Rounding must not carry a node over its edge.
+                    let r = r.clamp(pair[0], pair[1]);
+                    out.push((r, 0.5 * share * width * r * self.density(r) * weight(r)));
+                }
+            }
+        }
+        out
+    }
+}
+
+/// The radius up to which the weights sum to `share`, the last before they exceed it.
+fn past<'a>(weights: impl Iterator<Item = &'a (f64, f64)>, share: f64) -> Option<f64> {
+    let mut sum = 0.0;
+    for (r, weight) in weights {
+        sum += weight;
+        if sum > share {
+            return Some(*r);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn whole(law: SizeLaw) -> SizeDistribution {
+        SizeDistribution::whole(law).unwrap()
+    }
+
+    /// Hansen & Travis: r_eff and v_eff by definition, ⟨r³⟩ = r_eff³ (1-v)(1-2v), for every width.
+    #[test]
+    fn gamma_moments_in_closed_form() {
+        for v in [1e-6, 1e-3, 0.1, 1.0 / 9.0, 0.3, 0.45] {
+            let gamma = whole(SizeLaw::gamma(1e-5, v));
+            assert_relative_eq!(gamma.effective_radius(), 1e-5, max_relative = 1e-10);
+            assert_relative_eq!(gamma.effective_variance(), v, max_relative = 1e-9);
+            let cubed = 1e-15 * (1.0 - v) * (1.0 - 2.0 * v);
+            assert_relative_eq!(gamma.moment(3.0), cubed, max_relative = 1e-10);
+            assert_relative_eq!(gamma.moment(0.0), 1.0, max_relative = 1e-12);
+        }
+    }
+
+    /// ⟨r^p⟩ = median^p exp(p²s²/2), v_eff = exp(s²) - 1.
+    #[test]
+    fn log_normal_moments_in_closed_form() {
+        for (median, s) in [(1e-9, 1.0), (2e-6, 0.4), (1e-3, 1e-4)] {
+            let log = whole(SizeLaw::LogNormal { median, spread: s });
+            for p in [0, 2, 3, 6] {
+                let p = f64::from(p);
+                let expected = median.powf(p) * (0.5 * p * p * s * s).exp();
+                assert_relative_eq!(log.moment(p), expected, max_relative = 1e-10);
+            }
+            assert_relative_eq!(log.effective_variance(), (s * s).exp_m1(), max_relative = 1e-9);
+        }
+    }
+
+    /// A normal law from its moments (m³ + 3mσ²)/(m² + σ²), and the number of a bell cut at zero.
+    #[test]
+    fn normal_moments_in_closed_form() {
+        let normal = whole(SizeLaw::Normal { mean: 1e-5, deviation: 1e-6 });
+        let expected = (1e-15 + 3e-5 * 1e-12) / (1e-10 + 1e-12);
+        assert_relative_eq!(normal.effective_radius(), expected, max_relative = 1e-10);
+        let cut = whole(SizeLaw::Normal { mean: 1e-5, deviation: 5e-6 });
+        let number = 1.0 - 0.5 * libm::erfc(2.0 / std::f64::consts::SQRT_2);
+        let at_top = 1.0 / (5e-6 * std::f64::consts::TAU.sqrt() * number);
+        assert_relative_eq!(cut.density(1e-5), at_top, max_relative = 1e-9);
+    }
+
+    /// Gamma's tail in closed form: with r⁴ it is a gamma law of shape 1/v + 2 = 12.
+    #[test]
+    fn limits_leave_the_share_asked_for() {
+        let gamma = whole(SizeLaw::gamma(1e-5, 0.1));
+        for share in [1e-3, 1e-6, 1e-9] {
+            let (_, high) = gamma.limits(share, 1e9);
+            let t = high / 1e-6;
+            // Q(12, t) = exp(-t) Σ_{k<12} t^k/k!
+            let (mut term, mut sum) = (1.0, 0.0);
+            for k in 0..12 {
+                sum += term;
+                term *= t / f64::from(k + 1);
+            }
+            let tail = (-t).exp() * sum / share;
+            assert!((0.8..1.1).contains(&tail), "{share:e}: {tail:e}");
+        }
+    }
+
+    /// The tails of the light of small particles fall as r⁶: at 1e-9 they end far beyond the bell.
+    #[test]
+    fn limits_of_small_particles_hold_their_light() {
+        let s = 0.3;
+        let log = whole(SizeLaw::LogNormal { median: 5e-9, spread: s });
+        let (_, high) = log.limits(1e-6, std::f64::consts::TAU / 550e-9);
+        // With r⁸ the bell stands at 8 s² beyond the median.
+        let place = ((high / 5e-9).ln() - 8.0 * s * s) / s;
+        let tail = 0.5 * libm::erfc(place / std::f64::consts::SQRT_2);
+        assert!((0.5e-6..1.2e-6).contains(&tail), "{tail:e}");
+    }
+
+    /// Rain at 1 mm/h: half as many drops per size every ln 2/4.1 mm of diameter.
+    #[test]
+    fn rain_halves() {
+        let rain = SizeDistribution::between(SizeLaw::marshall_palmer(1.0), 1e-4, 3e-3).unwrap();
+        let step = 0.5 * std::f64::consts::LN_2 / 4.1e3;
+        let ratio = rain.density(1e-3 + step) / rain.density(1e-3);
+        assert_relative_eq!(ratio, 0.5, max_relative = 1e-12);
+        assert_eq!(rain.density(9e-5), 0.0);
+        assert!(rain.has_step((1e-4, 3e-3)));
+    }
+
+    /// OPAC's soot: 0.8922877792586038 of the number lies between 5 nm and 20 µm.
+    #[test]
+    fn limits_are_told() {
+        let soot = SizeLaw::LogNormal { median: 11.8e-9, spread: 2f64.ln() };
+        let soot = SizeDistribution::between(soot, 5e-9, 20e-6).unwrap();
+        assert_relative_eq!(soot.share_inside(), 0.892_287_779_258_603_8, max_relative = 1e-10);
+        assert_relative_eq!(soot.effective_variance(), 0.611_214_3, max_relative = 1e-7);
+        assert_relative_eq!(soot.moment(3.0), 1.599_210_9e-23, max_relative = 1e-7);
+    }
+
+    /// Bins and lines hold what is written in them.
+    #[test]
+    fn tables_hold_their_numbers() {
+        let edges: std::sync::Arc<[f64]> = [1e-6, 2e-6, 5e-6, 6e-6].into();
+        let numbers: std::sync::Arc<[f64]> = [1.0, 0.0, 3.0].into();
+        let bins = whole(SizeLaw::Histogram { edges, numbers });
+        let expected = 0.25 * 1.5e-6 + 0.75 * 5.5e-6;
+        assert_relative_eq!(bins.moment(1.0), expected, max_relative = 1e-12);
+        assert_eq!(bins.stretches(1e-6, 1e7).len(), 2);
+        let radii: std::sync::Arc<[f64]> = [1e-6, 2e-6, 4e-6].into();
+        let densities: std::sync::Arc<[f64]> = [0.0, 2.0, 0.0].into();
+        let roof = whole(SizeLaw::Table { radii, densities });
+        assert_relative_eq!(roof.moment(1.0), 7.0 / 3.0 * 1e-6, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn endless_and_empty_laws_are_refused() {
+        let power = SizeLaw::PowerExponential { exponent: -4.0, scale: f64::INFINITY, power: 1.0 };
+        let refused = |from, to| SizeDistribution::between(power.clone(), from, to).unwrap_err();
+        assert_eq!(refused(0.0, 1.0), SizeError::Endless("lower"));
+        assert_eq!(refused(1e-6, f64::INFINITY), SizeError::Endless("upper"));
+        assert!(matches!(refused(2.0, 1.0), SizeError::Limits { .. }));
+        let mean = SizeDistribution::between(power, 1e-6, 2e-6).unwrap().moment(1.0);
+        // ∫ r^-3 / ∫ r^-4
+        let expected = 0.5 * (1.0 - 0.25) / (1.0 / 3.0 * (1.0 - 0.125)) * 1e-6;
+        assert_relative_eq!(mean, expected, max_relative = 1e-12);
+    }
+}
