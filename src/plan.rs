@@ -3,7 +3,7 @@
 //! Decided once, before anything is traced: the method, symmetries, orders, the wavefront's grid.
 //! Every decision leaves a sentence, so that `gonio plan` can print them.
 
-use crate::medium::MediumError;
+use crate::medium::{Medium, MediumError};
 use crate::optics::fresnel;
 use crate::scene::{Diffraction, Method, Orders, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
@@ -24,6 +24,12 @@ pub enum PlanError {
          for a sphere"
     )]
     TooAbsorbing { index: String, wavelength_nm: f64, size_parameter: f64, limit: f64 },
+    #[error(
+        "outside: k = {k:e} at {wavelength_nm} nm takes {loss:.1e} of the light along the particle's \
+         diameter: surroundings may take at most {OUTSIDE_LOSS:e}, for efficiencies in absorbing \
+         surroundings depend on a convention and are not offered"
+    )]
+    AbsorbingOutside { k: f64, wavelength_nm: f64, loss: f64 },
     #[error(
         "size parameter {size_parameter:.3e} at {wavelength_nm} nm: rays are accepted from {} to {:e} \
          (below, there are no rays; above, phases lose their digits); use method = \"mie\" for a \
@@ -90,7 +96,7 @@ impl Plan {
     /// Plan a scene.
     ///
     /// # Errors
-    /// A shape outside its model, a wavelength outside the medium's data, an exact series asked for
+    /// A shape outside its model, surroundings that absorb, a wavelength outside the medium's data, an exact series asked for
     /// a particle that is no sphere, or absorption beyond the ray picture.
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         let (shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
@@ -100,14 +106,21 @@ impl Plan {
         let indices = scene
             .wavelengths
             .iter()
-            .map(|&w| scene.medium.index(w))
+            .map(|&w| scene.medium.surface_index(scene.medium.seen_outside(w)?, radius))
             .collect::<Result<Vec<_>, _>>()?;
+        check_outside(scene, radius)?;
         if matches!(engine, Engine::Meridians | Engine::Patches) {
             check_absorption(scene, radius, &indices)?;
             check_size(scene, radius)?;
         }
         if indices.iter().all(|i| i.im == 0.0) {
             reasons.push("absorption is skipped: k = 0 at every wavelength".into());
+        }
+        if let Some(radial) = scene.medium.radial() {
+            reasons.push(format!(
+                "exact series of a sphere that varies along the radius: {}",
+                radial.name()
+            ));
         }
         let index = indices.first().map_or(1.33, |i| i.re);
         let (orders, forward_diffraction) = orders(scene, index, &mut reasons);
@@ -238,12 +251,35 @@ fn symmetry(shape: &Shape, reasons: &mut Vec<String>) -> Symmetry {
 /// Rays need a particle of at least a wavelength around, and phases that f64 can hold.
 fn check_size(scene: &Scene, radius: f64) -> Result<(), PlanError> {
     for &wavelength in &scene.wavelengths {
-        let size_parameter = TAU * radius / wavelength;
+        let size_parameter = TAU * radius / scene.medium.seen_outside(wavelength)?;
         if !(RAY_SIZES.0..=RAY_SIZES.1).contains(&size_parameter) {
             return Err(PlanError::Size { wavelength_nm: wavelength * 1e9, size_parameter });
         }
     }
     Ok(())
+}
+
+/// What light may lose in absorbing surroundings on the way along the particle's diameter: the
+/// series and the rays outside are those of a transparent medium.
+pub const OUTSIDE_LOSS: f64 = 1e-3;
+
+/// Refuses surroundings that take more than [`OUTSIDE_LOSS`] over the diameter; below it their k is
+/// left out (amplitudes refer to light at the particle's centre, and nothing is lost from there).
+pub fn outside_loss(
+    medium: &Medium,
+    vacuum: f64,
+    radius: f64,
+) -> Result<(), PlanError> {
+    let k = medium.outside_absorption(vacuum)?;
+    let loss = 4.0 * PI * k / vacuum * 2.0 * radius;
+    if loss <= OUTSIDE_LOSS {
+        return Ok(());
+    }
+    Err(PlanError::AbsorbingOutside { k, wavelength_nm: vacuum * 1e9, loss })
+}
+
+fn check_outside(scene: &Scene, radius: f64) -> Result<(), PlanError> {
+    scene.wavelengths.iter().try_for_each(|&w| outside_loss(&scene.medium, w, radius))
 }
 
 fn check_absorption(
@@ -253,10 +289,11 @@ fn check_absorption(
 ) -> Result<(), PlanError> {
     for (index, wavelength) in indices.iter().zip(&scene.wavelengths) {
         if index.im > LARGEST_K_OVER_N * index.re {
+            let seen = scene.medium.seen_outside(*wavelength)?;
             return Err(PlanError::TooAbsorbing {
                 index: format!("{}+{}i", index.re, index.im),
                 wavelength_nm: wavelength * 1e9,
-                size_parameter: TAU * radius / wavelength,
+                size_parameter: TAU * radius / seen,
                 limit: LARGEST_K_OVER_N,
             });
         }

@@ -88,11 +88,13 @@ pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
 /// # Errors
 /// A wavelength outside the medium's data, or an energy budget that does not add up.
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
-    let index = scene.medium.index(wavelength)?;
+    // Everything is computed with the wavelength and the index relative to the surroundings.
+    let seen = scene.medium.seen_outside(wavelength)?;
+    let index = scene.medium.surface_index(seen, plan.radius)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        return Ok(series_slab(scene, plan, wavelength)?);
+        return Ok(Slab { wavelength, ..series_slab(scene, plan, wavelength, seen)? });
     }
-    let size_parameter = TAU * plan.radius / wavelength;
+    let size_parameter = TAU * plan.radius / seen;
     let budget = energy(plan, wavelength, index, size_parameter)?;
     let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
     let far_field = far_field(plan, index, size_parameter, &scene.phi, in_table);
@@ -294,7 +296,12 @@ fn tracer<'a>(plan: &'a Plan, index: Complex64, size_parameter: f64) -> Tracer<'
 const FIRST_SPOKE: f64 = 0.0123;
 
 /// The exact series for a sphere.
-fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, MeanError> {
+fn series_slab(
+    scene: &Scene,
+    plan: &Plan,
+    vacuum: f64,
+    wavelength: f64,
+) -> Result<Slab, MeanError> {
     let source = if plan.engine == Engine::LorenzMie {
         Source::LorenzMie
     } else {
@@ -307,7 +314,7 @@ fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Mean
         sizes: scene.size_distribution.unwrap_or(one),
         medium: &scene.medium,
         wavelength,
-        bandwidth: scene.bandwidth,
+        bandwidth: scene.bandwidth * wavelength / vacuum,
         sun_disc: scene.sun_disc,
         tolerance: scene.tolerance,
     };

@@ -1,22 +1,27 @@
 //! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie or Debye terms.
 
 use super::UsageError;
+use super::scene_flags::{Coating, parse_coating, parse_medium, parse_outside};
 use super::scatter_input::{
     Index, ShapeKind, parse_index, parse_orders, parse_theta, raindrop_model,
 };
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use gonio::medium::Medium;
+use gonio::medium::radial::{self, Body};
+use gonio::medium::{Medium, MediumSpec};
 use gonio::optics::AmplitudeMatrix;
-use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, RAY_SIZES, Symmetry, last_order};
+use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, RAY_SIZES, Symmetry, last_order, outside_loss};
 use gonio::series::debye::{DebyeSeries, Term};
+use gonio::series::layered::Layered;
 use gonio::series::lorenz_mie::Sphere;
+use gonio::series::table::PROFILE_ERROR;
 use gonio::shape::Shape;
 use gonio::simulate;
 use gonio::trace::{Fates, Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
 use serde_json::{Value, json};
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
 use std::time::Instant;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -57,6 +62,15 @@ pub struct ScatterArgs {
     /// Index n or n+k; without it, water at the wavelength
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
     index: Option<Index>,
+    /// Medium in place of an index: a name, a file, or a table as in a scene file
+    #[arg(long, value_name = "TABLE", value_parser = parse_medium, conflicts_with = "index")]
+    medium: Option<MediumSpec>,
+    /// Medium around the particle: a name, an index, or a table
+    #[arg(long, value_name = "NAME_OR_INDEX", value_parser = parse_outside)]
+    outside: Option<MediumSpec>,
+    /// Films on it, from inside out: [{ medium = "ethanol", thickness_nm = 100 }]
+    #[arg(long, value_name = "LIST", value_parser = parse_coating)]
+    coating: Option<Coating>,
     /// Vertical over horizontal diameter of a spheroid
     #[arg(long, allow_hyphen_values = true)]
     axis_ratio: Option<f64>,
@@ -88,8 +102,14 @@ pub struct ScatterArgs {
 
 /// What was asked for, checked.
 struct Job {
+    /// In the surroundings, as the next.
     size_parameter: f64,
+    /// Relative to the surroundings, at the surface.
     index: Complex64,
+    /// Index of the surroundings.
+    outside: f64,
+    /// What varies along the radius.
+    body: Option<Body>,
     theta: Vec<f64>,
     azimuth: f64,
     orders: Option<Vec<u32>>,
@@ -144,10 +164,14 @@ fn job(args: &ScatterArgs) -> Result<Job> {
     let wavelength = positive("wavelength-nm", args.wavelength_nm)?;
     let size = positive("size-parameter", args.size_parameter)?;
     let radius_m = radius.unwrap_or(1.0) * 1e-6;
-    let (size_parameter, wavelength_m) = match (size, wavelength, radius) {
-        (Some(x), Some(w), _) => (x, w * 1e-9),
-        (Some(x), None, _) => (x, TAU * radius_m / x),
-        (None, Some(w), Some(_)) => (TAU * radius_m / (w * 1e-9), w * 1e-9),
+    let medium = medium(args)?;
+    let vacuum = wavelength.map(|w| w * 1e-9);
+    let seen = vacuum.map(|w| medium.seen_outside(w)).transpose()?;
+    // Radius, size parameter and wavelength in the surroundings.
+    let (radius_m, size_parameter, seen) = match (size, seen, radius) {
+        (Some(x), Some(w), _) => (x * w / TAU, x, w),
+        (Some(x), None, _) => (radius_m, x, TAU * radius_m / x),
+        (None, Some(w), Some(_)) => (radius_m, TAU * radius_m / w, w),
         _ => {
             return Err(usage(
                 "the particle's size is missing: give --size-parameter, or --radius-um and \
@@ -170,14 +194,43 @@ fn job(args: &ScatterArgs) -> Result<Job> {
             return Err(usage(format!("--{name} {value}: -{limit} to {limit} is accepted")));
         }
     }
-    let index = match args.index {
-        Some(Index(index)) => index,
-        None => Medium::Water { temperature: 293.15 }.index(wavelength_m)?,
-    };
+    let vacuum = vacuum.map_or_else(|| medium.vacuum(seen), Ok)?;
+    outside_loss(&medium, vacuum, radius_m)?;
+    let body = medium.body(seen, radius_m)?;
+    let index = medium.surface_index(seen, radius_m)?;
     let (orders, diffraction_term) = parse_orders(&args.orders).map_err(usage)?;
     let theta = parse_theta(&args.theta).map_err(usage)?;
     let azimuth = args.azimuth_deg.to_radians();
-    Ok(Job { size_parameter, index, theta, azimuth, orders, diffraction_term })
+    let outside = vacuum / seen;
+    Ok(Job { size_parameter, index, outside, body, theta, azimuth, orders, diffraction_term })
+}
+
+/// What the particle is made of, with its films and surroundings; water unless given.
+fn medium(args: &ScatterArgs) -> Result<Medium> {
+    let here = Path::new(".");
+    let inside = match (&args.index, &args.medium) {
+        (Some(Index(index)), _) => Medium::Constant(*index),
+        (None, Some(spec)) => spec.resolve(here)?,
+        (None, None) => Medium::Water { temperature: 293.15 },
+    };
+    let films = args.coating.as_ref().map_or(&[][..], |coating| &coating.0);
+    let coated = radial::coated(inside, films, here)?;
+    Ok(match &args.outside {
+        Some(outside) => radial::immersed(coated, outside, here)?,
+        None => coated,
+    })
+}
+
+/// Rays and Debye terms follow one index.
+fn one_index(args: &ScatterArgs, job: &Job) -> Result<()> {
+    if job.body.is_none() {
+        return Ok(());
+    }
+    let method = if args.method == MethodName::Rays { "rays" } else { "debye" };
+    Err(usage(format!(
+        "--method {method}: layers, profiles and films are solved by --method mie; rays and Debye \
+         terms follow one index inside"
+    )))
 }
 
 fn sphere_only(args: &ScatterArgs) -> Result<()> {
@@ -199,10 +252,19 @@ fn diagonal(pairs: Vec<(Complex64, Complex64)>) -> Vec<AmplitudeMatrix> {
 
 fn mie(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     sphere_only(args)?;
-    let sphere = Sphere::new(job.size_parameter, job.index)?;
-    let q = sphere.efficiencies();
+    let theta = radians(job);
+    let (q, amplitudes) = match &job.body {
+        Some(body) => {
+            let sphere = Layered::body(job.size_parameter, body, PROFILE_ERROR)?;
+            (sphere.efficiencies(), sphere.amplitudes_parallel(&theta))
+        }
+        None => {
+            let sphere = Sphere::new(job.size_parameter, job.index)?;
+            (sphere.efficiencies(), sphere.amplitudes_parallel(&theta))
+        }
+    };
     Ok(Answer {
-        amplitudes: diagonal(sphere.amplitudes_parallel(&radians(job))),
+        amplitudes: diagonal(amplitudes),
         q_ext: Some(q.q_ext),
         q_sca: Some(q.q_sca),
         q_abs: Some(q.q_abs),
@@ -214,6 +276,7 @@ fn mie(args: &ScatterArgs, job: &Job) -> Result<Answer> {
 
 fn debye(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     sphere_only(args)?;
+    one_index(args, job)?;
     let auto = job.orders.is_none() && !job.diffraction_term;
     let list = match &job.orders {
         Some(list) => list.clone(),
@@ -258,6 +321,7 @@ fn shape(args: &ScatterArgs) -> Result<Shape> {
 }
 
 fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
+    one_index(args, job)?;
     if job.index.im > LARGEST_K_OVER_N * job.index.re {
         return Err(usage(format!(
             "--index {}+{}: rays need k/n below {LARGEST_K_OVER_N}; use --method mie for a sphere",
@@ -329,14 +393,15 @@ fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Valu
     let pairs = |f: fn(&AmplitudeMatrix) -> Complex64| -> Vec<[f64; 2]> {
         answer.amplitudes.iter().map(|s| [f(s).re, f(s).im]).collect()
     };
-    json!({
+    let absolute = job.index * job.outside;
+    let mut value = json!({
         "method": match args.method {
             MethodName::Rays => "rays",
             MethodName::Mie => "mie",
             MethodName::Debye => "debye",
         },
         "size_parameter": job.size_parameter,
-        "index": [job.index.re, job.index.im],
+        "index": [absolute.re, absolute.im],
         "azimuth_deg": args.azimuth_deg,
         "theta_deg": job.theta,
         "s1": pairs(|s| s.s1),
@@ -350,7 +415,11 @@ fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Valu
         "asymmetry": answer.asymmetry,
         "diffraction_included": answer.diffraction_included,
         "seconds": seconds,
-    })
+    });
+    if args.outside.is_some() {
+        value["relative_index"] = json!([job.index.re, job.index.im]);
+    }
+    value
 }
 
 fn print_table(job: &Job, answer: &Answer) {

@@ -3,6 +3,7 @@
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use gonio::medium::MediumSpec;
+use gonio::medium::radial::FilmSpec;
 use gonio::phase_table::{ForwardPeak, Quantity};
 use gonio::scene::{
     Choice, Diffraction, Grid, LightKeys, Method, ModelKeys, Named, Orders, ParticleKeys, Scene,
@@ -54,6 +55,12 @@ pub struct ParticleFlags {
     /// Medium of the particle: a name, a file, or a table as in a scene file
     #[arg(long, value_name = "NAME", value_parser = parse_medium)]
     pub medium: Option<MediumSpec>,
+    /// Medium around the particle: a name, an index, or a table
+    #[arg(long, value_name = "NAME_OR_INDEX", value_parser = parse_outside)]
+    pub outside: Option<MediumSpec>,
+    /// Films on it, from inside out: [{ medium = "ethanol", thickness_nm = 100 }]
+    #[arg(long, value_name = "LIST", value_parser = parse_coating)]
+    pub coating: Option<Coating>,
     /// Constant index n+ik of the particle in place of a medium
     #[arg(long, value_name = "N[+K]", value_parser = parse_index, conflicts_with = "medium")]
     pub index: Option<[f64; 2]>,
@@ -147,8 +154,32 @@ pub fn parse_index(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
+/// Films from inside out.
+#[derive(Clone, Debug)]
+pub struct Coating(pub Vec<FilmSpec>);
+
+/// `[{ medium = "water", thickness_nm = 100 }]`
+pub fn parse_coating(text: &str) -> Result<Coating, String> {
+    #[derive(serde::Deserialize)]
+    struct Holder {
+        coating: Vec<FilmSpec>,
+    }
+    let accepted = "a list such as [{ medium = \"water\", thickness_nm = 100 }]";
+    toml::from_str::<Holder>(&format!("coating = {text}"))
+        .map(|holder| Coating(holder.coating))
+        .map_err(|error| format!("{}; accepted: {accepted}", error.message()))
+}
+
+/// `water`, `1.333`, `1.333+1e-9`, `{ … }`
+pub fn parse_outside(text: &str) -> Result<MediumSpec, String> {
+    match parse_index(text) {
+        Ok([n, k]) => Ok(MediumSpec::Index { n, k }),
+        Err(_) => parse_medium(text),
+    }
+}
+
 /// `water`, `glass.yml`, `{ solute = … }`
-fn parse_medium(text: &str) -> Result<MediumSpec, String> {
+pub fn parse_medium(text: &str) -> Result<MediumSpec, String> {
     MediumSpec::parse(text).map_err(|error| error.to_string())
 }
 
@@ -167,6 +198,8 @@ impl ParticleFlags {
             model: self.model,
             temperature_c: self.temperature_c,
             medium,
+            outside: self.outside.clone(),
+            coating: self.coating.clone().map(|coating| coating.0),
         }
     }
 }

@@ -13,6 +13,7 @@ mod formula;
 pub mod kramers_kronig;
 mod library;
 mod material;
+pub mod radial;
 mod refractive_index_info;
 mod resolve;
 mod sea_water;
@@ -73,6 +74,10 @@ pub enum Medium {
     Material(Arc<Material>),
     /// A dye in a host.
     Solution(Arc<Solution>),
+    /// It varies along the radius of a sphere.
+    Radial(Arc<radial::Radial>),
+    /// Inside another medium: wavelengths are those in it, indices relative to it.
+    Immersed(Arc<radial::Immersed>),
 }
 
 impl Medium {
@@ -102,6 +107,13 @@ impl Medium {
             Medium::Daimon(water) => water.index(wavelength),
             Medium::Material(material) => material.index(wavelength),
             Medium::Solution(solution) => solution.index(wavelength),
+            Medium::Radial(radial) => Err(invalid(
+                "medium",
+                radial.name(),
+                "a medium with one index; this one varies along the radius and serves spheres \
+                 by method = \"mie\"",
+            )),
+            Medium::Immersed(immersed) => immersed.index(wavelength),
         }
     }
 
@@ -114,6 +126,8 @@ impl Medium {
             Medium::Daimon(water) => water.range(),
             Medium::Material(material) => material.range,
             Medium::Solution(solution) => solution.range(),
+            Medium::Radial(radial) => radial.valid_range(),
+            Medium::Immersed(immersed) => immersed.range(),
         }
     }
 
@@ -132,6 +146,8 @@ impl Medium {
             Medium::Daimon(water) => format!("water-daimon at {}", celsius(water.temperature())),
             Medium::Material(material) => material.name.clone(),
             Medium::Solution(solution) => solution.name(),
+            Medium::Radial(radial) => radial.name(),
+            Medium::Immersed(immersed) => immersed.name(),
         }
     }
 
@@ -153,6 +169,8 @@ impl Medium {
             }
             Medium::Material(material) => material.source.clone(),
             Medium::Solution(solution) => solution.source(),
+            Medium::Radial(radial) => radial.source(),
+            Medium::Immersed(immersed) => immersed.source(),
         }
     }
 

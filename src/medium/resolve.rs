@@ -39,6 +39,7 @@ impl MediumSpec {
                 };
                 solution(dye, *fraction, host.resolve(base_dir)?, *dispersion)
             }
+            Self::Radial(spec) => spec.resolve(base_dir),
             Self::Absorbance { path, path_mm, host, dispersion } => {
                 let dye = dye_of_absorbance(&base_dir.join(path), *path_mm)?;
                 solution(dye, 1.0, host.resolve(base_dir)?, *dispersion)

@@ -11,10 +11,13 @@
 //! medium = { abbe = [1.5168, 64.17], line = "d" }        # d (default), D or e
 //! medium = { solute = "rhodamine6g", fraction = 0.01, host = "water" }
 //! medium = { absorbance = "dye.csv", path_mm = 10, host = "water" }
+//! medium = { layers = [ { radius_fraction = 0.8, medium = "water" }, { medium = "ice" } ] }
+//! medium = { profile = "luneburg", c = 3.0 }             # these two: see `radial/spec.rs`
 //! ```
 //! A solution also takes `dispersion = false`: the dye's k with the host's n. A solute may be a CSV
 //! file with k. Files are looked for beside the scene file.
 
+use super::radial::RadialSpec;
 use super::{AbbeLines, MediumError, invalid};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -30,6 +33,7 @@ pub enum MediumSpec {
     Abbe { index: f64, number: f64, line: AbbeLines },
     Solution { solute: String, fraction: f64, host: Box<MediumSpec>, dispersion: bool },
     Absorbance { path: PathBuf, path_mm: f64, host: Box<MediumSpec>, dispersion: bool },
+    Radial(Box<RadialSpec>),
 }
 
 /// A name in the library with the conditions that go with it.

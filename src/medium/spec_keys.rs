@@ -4,6 +4,7 @@
 //! rather than ignored.
 
 use super::AbbeLines;
+use super::radial::RadialSpec;
 use super::spec::{MediumSpec, NamedSpec};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -112,6 +113,8 @@ impl MediumSpec {
                 dispersion: only_false(dispersion),
                 ..Keys::default()
             },
+            // It has keys of its own.
+            Self::Radial(_) => Keys::default(),
         }
     }
 }
@@ -215,8 +218,23 @@ impl<'de> Deserialize<'de> for MediumSpec {
                 Ok(MediumSpec::name(name))
             }
 
+            fn visit_f64<E: de::Error>(self, n: f64) -> Result<MediumSpec, E> {
+                Ok(MediumSpec::Index { n, k: 0.0 })
+            }
+
+            fn visit_i64<E: de::Error>(self, n: i64) -> Result<MediumSpec, E> {
+                Ok(MediumSpec::Index { n: n as f64, k: 0.0 })
+            }
+
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MediumSpec, A::Error> {
-                let keys = Keys::deserialize(de::value::MapAccessDeserializer::new(map))?;
+                let map = de::value::MapAccessDeserializer::new(map);
+                let table = toml::Table::deserialize(map)?;
+                let plain = |error: toml::de::Error| de::Error::custom(error.message());
+                if RadialSpec::is_meant(&table) {
+                    let spec = RadialSpec::deserialize(table).map_err(plain)?;
+                    return Ok(MediumSpec::Radial(Box::new(spec)));
+                }
+                let keys = Keys::deserialize(table).map_err(plain)?;
                 MediumSpec::try_from(keys).map_err(de::Error::custom)
             }
         }
@@ -234,6 +252,7 @@ impl Serialize for MediumSpec {
                 salinity_g_kg: None,
                 extrapolate: false,
             }) => serializer.serialize_str(name),
+            Self::Radial(spec) => spec.serialize(serializer),
             _ => self.keys().serialize(serializer),
         }
     }

@@ -8,6 +8,7 @@ use super::grid::Grid;
 use super::sizes::SizeKeys;
 use super::{Diffraction, Method, Orders, SunDisc};
 use crate::medium::MediumSpec;
+use crate::medium::radial::FilmSpec;
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use serde::{Deserialize, Serialize};
@@ -49,6 +50,12 @@ pub struct ParticleKeys {
     pub temperature_c: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub medium: Option<MediumSpec>,
+    /// The medium around it; none: vacuum (and air).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outside: Option<MediumSpec>,
+    /// Films on it, from inside out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coating: Option<Vec<FilmSpec>>,
 }
 
 /// `[light]`: what shines on it.
@@ -117,6 +124,8 @@ pub(super) const KEYS: [(&str, &[&str]); 4] = [
             "model",
             "temperature_c",
             "medium",
+            "outside",
+            "coating",
         ],
     ),
     ("light", &["sun_elevation_deg", "wavelengths_nm", "bandwidth_nm", "sun_disc"]),
@@ -167,6 +176,8 @@ impl ParticleKeys {
             model: flags.model.or(self.model),
             temperature_c: flags.temperature_c.or(self.temperature_c),
             medium: flags.medium.clone().or(self.medium),
+            outside: flags.outside.clone().or(self.outside),
+            coating: flags.coating.clone().or(self.coating),
         }
     }
 }

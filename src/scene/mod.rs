@@ -60,6 +60,17 @@ pub enum Particle {
     },
 }
 
+impl Particle {
+    /// Radius of the sphere of equal volume, metres.
+    pub fn radius(&self) -> f64 {
+        match *self {
+            Self::Sphere { radius }
+            | Self::Spheroid { radius, .. }
+            | Self::Raindrop { radius, .. } => radius,
+        }
+    }
+}
+
 /// How scattering is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {

@@ -4,7 +4,7 @@ use super::Particle;
 use super::choice::{Named, ShapeName, chosen};
 use super::error::SceneError;
 use super::file::ParticleKeys;
-use crate::medium::{Medium, MediumSpec};
+use crate::medium::{Medium, MediumSpec, radial};
 use crate::shape::RaindropModel;
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
@@ -152,16 +152,38 @@ pub(super) fn medium_of(
         }
         (_, None) => {}
     }
-    let medium = spec.resolve(folder).map_err(|source| SceneError::medium(KEY, source))?;
+    let wrong = |source| SceneError::medium(KEY, source);
+    let inside = spec.resolve(folder).map_err(wrong)?;
+    let medium = surrounded(keys, inside, folder)?;
+    let radius = particle_of(keys)?.radius();
     for wavelength in wavelengths {
-        let index = medium.index(*wavelength).map_err(|source| SceneError::medium(KEY, source))?;
+        let seen = medium
+            .seen_outside(*wavelength)
+            .map_err(|source| SceneError::medium("particle.outside", source))?;
+        let index = medium.surface_index(seen, radius).map_err(wrong)?;
         if !(index.re > 0.0 && index.im >= 0.0 && index.is_finite()) {
             let accepted = "an index n + ik needs n > 0 and k ≥ 0";
             return Err(SceneError::invalid(KEY, index, accepted));
         }
-        if (index - 1.0).norm() < 1e-9 {
+        if (index - 1.0).norm() < 1e-9 && medium.radial().is_none() {
             return Err(SceneError::invalid(KEY, index, "an index of 1 scatters no light"));
         }
     }
     Ok(medium)
+}
+
+/// The medium with its films and in its surroundings.
+fn surrounded(
+    keys: &ParticleKeys,
+    inside: Medium,
+    folder: &Path,
+) -> Result<Medium, SceneError> {
+    let films = keys.coating.as_deref().unwrap_or_default();
+    let coated = radial::coated(inside, films, folder)
+        .map_err(|source| SceneError::medium("particle.coating", source))?;
+    match &keys.outside {
+        None => Ok(coated),
+        Some(outside) => radial::immersed(coated, outside, folder)
+            .map_err(|source| SceneError::medium("particle.outside", source)),
+    }
 }

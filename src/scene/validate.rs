@@ -59,6 +59,7 @@ impl SceneFile {
         };
         scene.check_method()?;
         scene.check_means()?;
+        scene.check_radial()?;
         scene.check_size()?;
         Ok(scene)
     }
@@ -228,6 +229,23 @@ impl Scene {
             return Err(SceneError::invalid("model.orders", format!("{list:?}"), accepted));
         }
         Ok(())
+    }
+
+    /// What varies along the radius is solved by the exact series.
+    fn check_radial(&self) -> Result<(), SceneError> {
+        let Some(radial) = self.medium.radial() else { return Ok(()) };
+        let sphere = matches!(self.particle, Particle::Sphere { .. });
+        if sphere && matches!(self.method, Method::Auto | Method::Mie) {
+            return Ok(());
+        }
+        let accepted = "layers, profiles and films are for spheres with method = \"mie\" (or \
+                        \"auto\"): rays and Debye terms follow one index inside";
+        let value = if sphere {
+            format!("{} with method = \"{}\"", radial.name(), self.method.name())
+        } else {
+            format!("{} in a particle that is no sphere", radial.name())
+        };
+        Err(SceneError::invalid("particle.medium", value, accepted))
     }
 
     /// Means over sizes, bands and the sun's disc are taken of the exact series.

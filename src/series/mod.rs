@@ -1,4 +1,4 @@
-//! Exact series for the homogeneous sphere: Lorenz–Mie and its Debye expansion.
+//! Exact series for spheres: Lorenz–Mie, its Debye expansion, and [`layered`] spheres.
 //!
 //! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`]); [`angular`] sums them
 //! over the angles; [`mean`] averages over sizes and wavelengths.
@@ -8,6 +8,7 @@ mod behind;
 pub mod debye;
 pub mod even_angles;
 pub mod lanes;
+pub mod layered;
 pub mod lorenz_mie;
 pub mod mean;
 mod mean_sum;

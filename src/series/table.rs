@@ -8,8 +8,10 @@
 //! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
 use super::debye::{DebyeSeries, Term};
+use super::layered::Layered;
+use super::layered::mean::RadialEnsemble;
 use super::lorenz_mie::Sphere;
-use super::mean::{Ensemble, MeanError};
+use super::mean::{Ensemble, Mean, MeanError};
 use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
@@ -35,7 +37,7 @@ pub struct SphereJob<'a> {
     pub source: Source,
     pub sizes: SizeDistribution,
     pub medium: &'a Medium,
-    /// Wavelength in vacuum and width of a band about it, metres.
+    /// Wavelength in the surroundings and width of a band about it, metres.
     pub wavelength: f64,
     pub bandwidth: f64,
     pub sun_disc: SunDisc,
@@ -51,6 +53,9 @@ const SAMPLES_PER_LOBE: f64 = 8.0;
 const COARSE: f64 = 0.08;
 /// Relative error of the series itself.
 const SERIES_ERROR: f64 = 1e-9;
+/// Relative error of the amplitudes of a radial profile: behind, where they are a hundred times
+/// smaller than in the forward peak, still below 1e-7.
+pub const PROFILE_ERROR: f64 = 1e-9;
 /// Relative error of a mean over the sun's disc, see [`super::sun_disc`].
 const DISC_ERROR: f64 = 3e-4;
 
@@ -75,7 +80,8 @@ pub fn sphere_slab(
     quantity: Quantity,
     forward_peak: ForwardPeak,
 ) -> Result<Slab, MeanError> {
-    let (wavelength, index) = (job.wavelength, job.medium.index(job.wavelength)?);
+    let wavelength = job.wavelength;
+    let index = job.medium.surface_index(wavelength, job.sizes.effective_radius())?;
     let largest = TAU * job.sizes.limits(job.tolerance).1 / wavelength;
     let mut cells = Vec::new();
     if forward_peak == ForwardPeak::CellAverage {
@@ -146,7 +152,7 @@ impl SphereJob<'_> {
         let limb = match self.sun_disc {
             SunDisc::None => return self.curves(index, theta),
             SunDisc::Uniform => None,
-            SunDisc::LimbDarkened => Some(LimbDarkening::at(self.wavelength)),
+            SunDisc::LimbDarkened => Some(LimbDarkening::at(self.medium.vacuum(self.wavelength)?)),
         };
         let disc = Disc::new(largest, limb);
         let mut curves = self.curves(index, &disc.fine_angles())?;
@@ -162,6 +168,19 @@ impl SphereJob<'_> {
             _ => return self.mean_curves(theta),
         };
         let x = TAU * radius / self.wavelength;
+        if let Some(body) = self.medium.body(self.wavelength, radius)? {
+            let sphere = Layered::body(x, &body, PROFILE_ERROR)?;
+            let (area, shadow) = ((self.wavelength / TAU).powi(2), PI * radius * radius);
+            let q = sphere.efficiencies();
+            let amplitudes = sphere.amplitudes_parallel(theta);
+            return Ok(Curves {
+                elements: amplitudes.into_iter().map(|pair| of_pair(pair, area)).collect(),
+                scattering: q.q_sca * shadow,
+                extinction: q.q_ext * shadow,
+                asymmetry: q.asymmetry,
+                error: sphere.error().max(SERIES_ERROR),
+            });
+        }
         let sphere = Sphere::new(x, index)?;
         let (amplitudes, error) = match &self.source {
             Source::LorenzMie => (sphere.amplitudes_parallel(theta), SERIES_ERROR),
@@ -182,6 +201,16 @@ impl SphereJob<'_> {
     }
 
     fn mean_curves(&self, theta: &[f64]) -> Result<Curves, MeanError> {
+        if self.medium.radial().is_some() {
+            let ensemble = RadialEnsemble {
+                sizes: &self.sizes,
+                medium: self.medium,
+                wavelength: self.wavelength,
+                bandwidth: self.bandwidth,
+                tolerance: self.tolerance,
+            };
+            return Ok(of_mean(ensemble.mean(theta)?));
+        }
         let ensemble = Ensemble {
             sizes: self.sizes,
             medium: self.medium,
@@ -189,14 +218,17 @@ impl SphereJob<'_> {
             bandwidth: self.bandwidth,
             tolerance: self.tolerance,
         };
-        let mean = ensemble.mean(theta)?;
-        Ok(Curves {
-            elements: mean.elements,
-            scattering: mean.scattering,
-            extinction: mean.scattering + mean.absorption,
-            asymmetry: mean.asymmetry,
-            error: mean.error,
-        })
+        Ok(of_mean(ensemble.mean(theta)?))
+    }
+}
+
+fn of_mean(mean: Mean) -> Curves {
+    Curves {
+        elements: mean.elements,
+        scattering: mean.scattering,
+        extinction: mean.scattering + mean.absorption,
+        asymmetry: mean.asymmetry,
+        error: mean.error,
     }
 }
 
