@@ -265,11 +265,7 @@ pub const OUTSIDE_LOSS: f64 = 1e-3;
 
 /// Refuses surroundings that take more than [`OUTSIDE_LOSS`] over the diameter; below it their k is
 /// left out (amplitudes refer to light at the particle's centre, and nothing is lost from there).
-pub fn outside_loss(
-    medium: &Medium,
-    vacuum: f64,
-    radius: f64,
-) -> Result<(), PlanError> {
+pub fn outside_loss(medium: &Medium, vacuum: f64, radius: f64) -> Result<(), PlanError> {
     let k = medium.outside_absorption(vacuum)?;
     let loss = 4.0 * PI * k / vacuum * 2.0 * radius;
     if loss <= OUTSIDE_LOSS {

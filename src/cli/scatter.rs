@@ -1,10 +1,10 @@
 //! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie or Debye terms.
 
 use super::UsageError;
-use super::scene_flags::{Coating, parse_coating, parse_medium, parse_outside};
 use super::scatter_input::{
     Index, ShapeKind, parse_index, parse_orders, parse_theta, raindrop_model,
 };
+use super::scene_flags::{Coating, parse_coating, parse_medium, parse_outside};
 use anyhow::Result;
 use clap::{Args, ValueEnum};
 use gonio::medium::radial::{self, Body};

@@ -173,11 +173,7 @@ pub(super) fn medium_of(
 }
 
 /// The medium with its films and in its surroundings.
-fn surrounded(
-    keys: &ParticleKeys,
-    inside: Medium,
-    folder: &Path,
-) -> Result<Medium, SceneError> {
+fn surrounded(keys: &ParticleKeys, inside: Medium, folder: &Path) -> Result<Medium, SceneError> {
     let films = keys.coating.as_deref().unwrap_or_default();
     let coated = radial::coated(inside, films, folder)
         .map_err(|source| SceneError::medium("particle.coating", source))?;

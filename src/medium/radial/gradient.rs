@@ -75,7 +75,11 @@ impl Gradient {
     /// What it is called.
     pub fn name(&self) -> String {
         let (centre, surface) = self.ends();
-        format!("{} at the centre, {} at the surface", self.medium(centre).name(), self.medium(surface).name())
+        format!(
+            "{} at the centre, {} at the surface",
+            self.medium(centre).name(),
+            self.medium(surface).name()
+        )
     }
 
     /// Where the data are from.

@@ -43,7 +43,10 @@ pub enum Radial {
     Profile(Profile),
     Gradient(Gradient),
     /// Films on anything, from inside out; the radius of the particle is that of the outermost.
-    Coated { inside: Medium, films: Vec<Film> },
+    Coated {
+        inside: Medium,
+        films: Vec<Film>,
+    },
 }
 
 impl Radial {

@@ -102,7 +102,10 @@ impl Profile {
 /// What varies smoothly at one wavelength, relative to an index outside.
 #[derive(Clone, Debug)]
 pub enum Smooth {
-    Profile { profile: Profile, outside: f64 },
+    Profile {
+        profile: Profile,
+        outside: f64,
+    },
     /// n and k by what diffuses, 0 at the surface and 1 at the centre.
     Diffused(Chebyshev<2>),
 }

@@ -159,8 +159,7 @@ impl RadialSpec {
                 return profile_table::read(&folder.join(file));
             }
             other => {
-                let accepted =
-                    "luneburg, fish-eye, gaussian, inverse, polynomial, linear or table";
+                let accepted = "luneburg, fish-eye, gaussian, inverse, polynomial, linear or table";
                 return Err(invalid("medium: profile", other, accepted));
             }
         };
@@ -233,11 +232,7 @@ fn homogeneous(spec: &MediumSpec, folder: &Path, field: &str) -> Result<Medium, 
 ///
 /// # Errors
 /// A film without thickness, or of a medium that itself varies.
-pub fn coated(
-    inside: Medium,
-    films: &[FilmSpec],
-    folder: &Path,
-) -> Result<Medium, MediumError> {
+pub fn coated(inside: Medium, films: &[FilmSpec], folder: &Path) -> Result<Medium, MediumError> {
     if films.is_empty() {
         return Ok(inside);
     }

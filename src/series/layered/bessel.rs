@@ -49,7 +49,8 @@ impl RealFunctions {
         self.crossings.iter_mut().for_each(Vec::clear);
         let inverse = z.map(|z| 1.0 / z);
         // The start is forgotten to a rounding error at the turning point, see `riccati_bessel`.
-        let start = orders.max(largest.ceil() as usize) + (10.0 * largest.cbrt()).ceil() as usize + 50;
+        let start =
+            orders.max(largest.ceil() as usize) + (10.0 * largest.cbrt()).ceil() as usize + 50;
         downward(&inverse, start, &mut self.ratio);
         let mut state = Upward::new(z);
         let mut first = 0;

@@ -74,10 +74,8 @@ fn arguments(x: f64, layers: &[Layer], j: usize) -> (Complex64, Complex64) {
 
 /// Field at the surface where all layers are transparent: real arithmetic.
 fn transparent(x: f64, layers: &[Layer], orders: usize) -> Surface<f64> {
-    let mut surface = Surface {
-        electric: vec![(0.0, 0.0); orders],
-        magnetic: vec![(0.0, 0.0); orders],
-    };
+    let mut surface =
+        Surface { electric: vec![(0.0, 0.0); orders], magnetic: vec![(0.0, 0.0); orders] };
     let mut functions = RealFunctions::default();
     for (group, chunk) in layers.chunks(LANES / 2).enumerate() {
         let mut z = [1.0; LANES];

@@ -83,8 +83,7 @@ impl RadialEnsemble<'_> {
         let mut total = Sum::new(theta.len());
         let (mut error, mut spheres) = (0.0, 0);
         for (shift, weight) in [(-offset, 1.0 / 6.0), (0.0, 2.0 / 3.0), (offset, 1.0 / 6.0)] {
-            let one =
-                Self { wavelength: self.wavelength + shift, bandwidth: 0.0, ..self.clone() };
+            let one = Self { wavelength: self.wavelength + shift, bandwidth: 0.0, ..self.clone() };
             let mean = one.along_one(theta)?;
             let sum = Sum {
                 elements: mean.elements,
@@ -154,11 +153,8 @@ impl RadialEnsemble<'_> {
         let node = |i: usize| {
             let t = place(i);
             // sin² steps make a function that ends in a step end smoothly.
-            let (at, share) = if ends {
-                (t - (TAU * t).sin() / TAU, 1.0 - (TAU * t).cos())
-            } else {
-                (t, 1.0)
-            };
+            let (at, share) =
+                if ends { (t - (TAU * t).sin() / TAU, 1.0 - (TAU * t).cos()) } else { (t, 1.0) };
             let radius = from + (to - from) * at;
             let weight = share * self.sizes.density(radius) * (to - from) / steps as f64 / number;
             (radius, self.wavelength, weight)
@@ -180,8 +176,7 @@ impl RadialEnsemble<'_> {
             }
             .into());
         };
-        let sphere =
-            Layered::body(TAU * radius / wavelength, &body, ONE_SPHERE * self.tolerance)?;
+        let sphere = Layered::body(TAU * radius / wavelength, &body, ONE_SPHERE * self.tolerance)?;
         let (area, shadow) = ((wavelength / TAU).powi(2), PI * radius * radius);
         let q = sphere.efficiencies();
         let elements = sphere.amplitudes_at(set).into_iter().map(|(s1, s2)| {

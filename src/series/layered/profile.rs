@@ -142,10 +142,8 @@ fn solved(x: f64, index: &impl RadialIndex, nodes: &[f64]) -> Result<Coefficient
                 re: values.map(|v| v.re),
                 im: values.map(|v| v.im),
             };
-            let mut fields = Fields {
-                magnetic: start.magnetic.map(split),
-                electric: start.electric.map(split),
-            };
+            let mut fields =
+                Fields { magnetic: start.magnetic.map(split), electric: start.electric.map(split) };
             advance_complex(&steps[first..], &ll, &mut fields);
             fields
         })

@@ -246,11 +246,7 @@ pub(super) fn advance_real(steps: &[Step<f64>], ll: &Lanes, fields: &mut Fields<
     "x86_64+avx2+fma",
     "aarch64+neon"
 ))]
-pub(super) fn advance_complex(
-    steps: &[Step<Complex64>],
-    ll: &Lanes,
-    fields: &mut Fields<Complex>,
-) {
+pub(super) fn advance_complex(steps: &[Step<Complex64>], ll: &Lanes, fields: &mut Fields<Complex>) {
     if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
         advance::<true, Complex>(steps, ll, fields);
     } else {
