@@ -45,11 +45,19 @@ struct CatalogueEntry {
 }
 
 /// Media whose data are tables: name, file, what it is.
-const TABLES: [(&str, &str, &str); 5] = [
+const TABLES: [(&str, &str, &str); 13] = [
     ("ice", "ice_warren_brandt_2008", "table of n and k"),
     ("water-segelstein", "water_segelstein_1981", "table of n and k"),
     ("water-hale-querry", "water_hale_querry_1973", "table of n and k"),
     ("diamond-phillip-taft", "diamond_phillip_taft_1964", "table of n and k"),
+    ("gold", "gold_johnson_christy_1972", "table of n and k"),
+    ("silver", "silver_johnson_christy_1972", "table of n and k"),
+    ("copper", "copper_johnson_christy_1972", "table of n and k"),
+    ("aluminium", "aluminium_rakic_1995", "table of n and k"),
+    ("soot-acetylene", "soot_acetylene_dalzell_1969", "table of n and k"),
+    ("soot-propane", "soot_propane_dalzell_1969", "table of n and k"),
+    ("soot-diesel", "soot_diesel_querry_1987", "table of n and k"),
+    ("ethanol", "ethanol_sani_2016", "table of n and k"),
     ("rhodamine6g", "rhodamine6g_film_seckin_2023", "dye film, table of n and k; solute"),
 ];
 
@@ -60,7 +68,7 @@ const WATERS: [&str; 3] = ["water", "sea-water", "water-daimon"];
 const MODELS: [&str; 2] = ["rose-bengal-model", "fuchsine-model"];
 
 /// Other names of the media that are not in the catalogue.
-const ALIASES: [(&str, &str); 9] = [
+const ALIASES: [(&str, &str); 16] = [
     ("h2o", "water"),
     ("seawater", "sea-water"),
     ("salt-water", "sea-water"),
@@ -70,6 +78,13 @@ const ALIASES: [(&str, &str); 9] = [
     ("rosebengal", "rose-bengal-model"),
     ("fuchsine", "fuchsine-model"),
     ("fuchsin", "fuchsine-model"),
+    ("au", "gold"),
+    ("ag", "silver"),
+    ("cu", "copper"),
+    ("al", "aluminium"),
+    ("aluminum", "aluminium"),
+    ("soot", "soot-acetylene"),
+    ("alcohol", "ethanol"),
 ];
 
 /// A shipped table by the name of its file.
@@ -88,14 +103,22 @@ macro_rules! shipped {
 }
 
 /// Names and texts of the shipped tables.
-const FILES: [(&str, &str); 7] = shipped![
+const FILES: [(&str, &str); 15] = shipped![
     "ice_warren_brandt_2008",
     "water_segelstein_1981",
     "water_hale_querry_1973",
     "water_pope_fry_1997",
     "water_k_kedenburg_2012",
     "diamond_phillip_taft_1964",
-    "rhodamine6g_film_seckin_2023"
+    "rhodamine6g_film_seckin_2023",
+    "gold_johnson_christy_1972",
+    "silver_johnson_christy_1972",
+    "copper_johnson_christy_1972",
+    "aluminium_rakic_1995",
+    "soot_acetylene_dalzell_1969",
+    "soot_propane_dalzell_1969",
+    "soot_diesel_querry_1987",
+    "ethanol_sani_2016"
 ];
 
 fn catalogue() -> &'static Catalogue {
