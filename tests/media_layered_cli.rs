@@ -79,8 +79,11 @@ fn surroundings_of_index_one_change_nothing() {
 fn films_are_layers() {
     let sphere = ["--method", "mie", "--radius-um", "5", "--wavelength-nm", "500"];
     let film = scatter(
-        &[&sphere[..], &["--index", "1.333", "--coating", "[{ medium = 1.47, thickness_nm = 50 }]"]]
-            .concat(),
+        &[
+            &sphere[..],
+            &["--index", "1.333", "--coating", "[{ medium = 1.47, thickness_nm = 50 }]"],
+        ]
+        .concat(),
     );
     let layers = "{ layers = [ { radius_fraction = 0.99, medium = 1.333 }, { medium = 1.47 } ] }";
     let layers = scatter(&[&sphere[..], &["--medium", layers]].concat());
@@ -141,7 +144,9 @@ fn tables_of_radial_media() {
             assert!((sum - 1.0).abs() < 2e-3, "{particle}: {sum}");
             let absorbed = slab.extinction_cross_section - slab.scattering_cross_section;
             let absorbing = particle.contains("gold") || particle.contains("soot");
-            assert!(absorbed >= 0.0 && (!absorbing || absorbed > 0.05 * slab.extinction_cross_section));
+            assert!(
+                absorbed >= 0.0 && (!absorbing || absorbed > 0.05 * slab.extinction_cross_section)
+            );
         }
         assert!((table.slabs[1].wavelength - 600e-9).abs() < 1e-15);
     }
@@ -167,8 +172,17 @@ fn refusals_in_words() {
     ];
     for (flag, value, message) in cases {
         let arguments = [
-            "scatter", "--method", "mie", "--radius-um", "10", "--wavelength-nm", "600", "--theta",
-            "90", flag, value,
+            "scatter",
+            "--method",
+            "mie",
+            "--radius-um",
+            "10",
+            "--wavelength-nm",
+            "600",
+            "--theta",
+            "90",
+            flag,
+            value,
         ];
         let (code, out, error) = gonio(folder.path(), &arguments);
         assert_eq!(code, 2, "{value}: {error}");
@@ -177,10 +191,49 @@ fn refusals_in_words() {
     // Rays and other shapes say that they follow one index.
     for (method, shape) in [("rays", "sphere"), ("debye", "sphere"), ("rays", "raindrop")] {
         let arguments = [
-            "scatter", "--method", method, "--shape", shape, "--radius-um", "500",
-            "--wavelength-nm", "600", "--theta", "90", "--medium", "{ profile = \"fish-eye\" }",
+            "scatter",
+            "--method",
+            method,
+            "--shape",
+            shape,
+            "--radius-um",
+            "500",
+            "--wavelength-nm",
+            "600",
+            "--theta",
+            "90",
+            "--medium",
+            "{ profile = \"fish-eye\" }",
         ];
         let (code, _, error) = gonio(folder.path(), &arguments);
         assert!(code == 2 && error.contains("one index"), "{method} {shape}: {error}");
     }
+}
+
+/// Rays in profiles: the lens of Luneburg focuses at θ = asin b, a gradient moves the bow, spirals say
+/// where they end.
+#[test]
+fn rays_in_profiles() {
+    let folder = tempfile::tempdir().unwrap();
+    let rays = |medium: &str, order: &str| -> Value {
+        let arguments = ["rays", "--medium", medium, "--order", order, "--count", "9", "--json"];
+        let (code, out, error) = gonio(folder.path(), &arguments);
+        assert_eq!(code, 0, "{error}");
+        serde_json::from_str(&out).unwrap()
+    };
+    let lens = rays("{ profile = \"luneburg\", c = 2.0 }", "1");
+    for ray in lens["rays"].as_array().unwrap() {
+        let (b, theta) = (number(ray, "impact"), number(ray, "deviation_deg").to_radians());
+        assert!((theta - b.abs().asin()).abs() < 1e-8, "{ray}");
+        let path = 0.5 * std::f64::consts::PI - (1.0 - b * b).sqrt();
+        assert!((number(ray, "optical_path") - path).abs() < 1e-8, "{ray}");
+    }
+    let drop = "{ profile = \"polynomial\", coefficients = [1.334, -1e-3] }";
+    for (order, theta) in [("2", 138.09144), ("3", 128.85131)] {
+        let bows = rays(drop, order)["rainbows"].clone();
+        assert_eq!(bows.as_array().unwrap().len(), 2, "{bows}");
+        assert!((number(&bows[1], "deviation_deg") - theta).abs() < 1e-4, "{bows}");
+    }
+    let spiral = rays("{ profile = \"inverse\", k = 1.5 }", "1");
+    assert!(spiral["rays"].as_array().unwrap().iter().all(|ray| ray["fate"] == "centre"));
 }

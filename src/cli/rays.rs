@@ -2,18 +2,21 @@
 
 mod drawing;
 mod plane;
+mod radial;
 
 use super::UsageError;
 use super::plot::write_whole;
 use super::scatter_input::{Index, ShapeKind, parse_index, raindrop_model};
+use super::scene_flags::parse_medium;
 use anyhow::Result;
 use clap::Args;
-use gonio::medium::Medium;
+use gonio::medium::radial::Body;
+use gonio::medium::{Medium, MediumSpec};
 use gonio::shape::Shape;
 use gonio::trace::Tracer;
 use plane::{PlaneRay, Rainbow, rainbows, trace};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Ray paths and deviation of one order in the vertical symmetry plane
 #[derive(Args)]
@@ -38,6 +41,11 @@ pub struct RaysArgs {
     /// Index n or n+k; without it, water at --wavelength-nm
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
     index: Option<Index>,
+    /// Medium in place of an index: a name, a file, or a table as in a scene file; one that varies
+    /// along the radius is for spheres
+    #[arg(long, value_name = "TABLE", value_parser = parse_medium, conflicts_with = "index")]
+    medium: Option<MediumSpec>,
+    /// Wavelength in vacuum, nanometres
     #[arg(long, default_value_t = 589.3)]
     wavelength_nm: f64,
     /// Number of chords inside the drop
@@ -59,9 +67,10 @@ const HIGHEST_ORDER: u32 = 200;
 
 pub fn run(args: RaysArgs) -> Result<()> {
     let shape = shape(&args)?;
-    let index = match args.index {
-        Some(Index(index)) => index,
-        None => Medium::Water { temperature: 293.15 }.index(args.wavelength_nm * 1e-9)?,
+    let medium = match (&args.index, &args.medium) {
+        (Some(Index(index)), _) => Medium::Constant(*index),
+        (None, Some(spec)) => spec.resolve(Path::new("."))?,
+        (None, None) => Medium::Water { temperature: 293.15 },
     };
     if !(2..=MOST_RAYS).contains(&args.count) {
         let message = format!("--count {}: 2 to {MOST_RAYS} is accepted", args.count);
@@ -71,6 +80,10 @@ pub fn run(args: RaysArgs) -> Result<()> {
         let message = format!("--order {}: 0 to {HIGHEST_ORDER} is accepted", args.order);
         return Err(UsageError(message).into());
     }
+    if let Some(body) = medium.body(args.wavelength_nm * 1e-9, args.radius_mm * 1e-3)? {
+        return in_radial(&args, &shape, &body);
+    }
+    let index = medium.index(args.wavelength_nm * 1e-9)?;
     let tracer = Tracer::new(&shape, index, 1.0, args.order);
     let rim = |azimuth: f64| shape.silhouette().radius(azimuth);
     let (upper, lower) = (rim(0.0), rim(std::f64::consts::PI));
@@ -97,6 +110,30 @@ pub fn run(args: RaysArgs) -> Result<()> {
             let (degrees, exit) = (ray.exit.scattering_angle().to_degrees(), &ray.exit);
             println!("{:9.6} {degrees:10.5} {:12.8} {}", ray.impact, exit.path, exit.focal_lines);
         }
+    }
+    Ok(())
+}
+
+/// Rays of a sphere whose index varies along the radius.
+fn in_radial(args: &RaysArgs, shape: &Shape, body: &Body) -> Result<()> {
+    let usage = |message: &str| Err(UsageError(message.into()).into());
+    if !shape.is_sphere() {
+        return usage("--medium: layers and profiles are for --shape sphere");
+    }
+    if !body.layers.is_empty() {
+        return usage(
+            "--medium: rays follow smooth profiles; at the interfaces of layers they would split, and \
+             gonio scatter --method mie solves those",
+        );
+    }
+    if args.output.is_some() {
+        return usage("--output: drawings are of straight chords; leave it out for a profile");
+    }
+    let traced = radial::trace(body, args.order, args.count);
+    if args.json {
+        println!("{}", traced.json());
+    } else {
+        traced.print();
     }
     Ok(())
 }

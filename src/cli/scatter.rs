@@ -255,7 +255,7 @@ fn mie(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     let theta = radians(job);
     let (q, amplitudes) = match &job.body {
         Some(body) => {
-            let sphere = Layered::body(job.size_parameter, body, PROFILE_ERROR)?;
+            let sphere = Layered::body(job.size_parameter, body, PROFILE_ERROR * args.tolerance)?;
             (sphere.efficiencies(), sphere.amplitudes_parallel(&theta))
         }
         None => {

@@ -53,9 +53,9 @@ const SAMPLES_PER_LOBE: f64 = 8.0;
 const COARSE: f64 = 0.08;
 /// Relative error of the series itself.
 const SERIES_ERROR: f64 = 1e-9;
-/// Relative error of the amplitudes of a radial profile: behind, where they are a hundred times
-/// smaller than in the forward peak, still below 1e-7.
-pub const PROFILE_ERROR: f64 = 1e-9;
+/// Relative error of the amplitudes of a radial profile in units of the tolerance: 1e-9 at 1 %, so
+/// that behind, where they are a hundred times smaller than in the forward peak, it is below 1e-7.
+pub const PROFILE_ERROR: f64 = 1e-7;
 /// Relative error of a mean over the sun's disc, see [`super::sun_disc`].
 const DISC_ERROR: f64 = 3e-4;
 
@@ -169,7 +169,7 @@ impl SphereJob<'_> {
         };
         let x = TAU * radius / self.wavelength;
         if let Some(body) = self.medium.body(self.wavelength, radius)? {
-            let sphere = Layered::body(x, &body, PROFILE_ERROR)?;
+            let sphere = Layered::body(x, &body, PROFILE_ERROR * self.tolerance)?;
             let (area, shadow) = ((self.wavelength / TAU).powi(2), PI * radius * radius);
             let q = sphere.efficiencies();
             let amplitudes = sphere.amplitudes_parallel(theta);

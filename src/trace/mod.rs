@@ -8,6 +8,7 @@
 mod energy;
 mod exit;
 mod focal_lines;
+mod radial;
 mod ray;
 mod surface_event;
 mod tracer;
@@ -15,5 +16,6 @@ mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
 pub use exit::{Exit, transfer};
+pub use radial::{Chord, RadialRays};
 pub use tracer::{Meeting, Remainder, Tracer};
 pub use wavefront::Wavefront;

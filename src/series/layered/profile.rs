@@ -26,7 +26,7 @@ pub trait RadialIndex: Sync {
 const DEPTH: f64 = 24.0;
 /// Phase per step of the coarse grid that meets a relative error of 1 at size parameter 1: error
 /// falls with its fourth power and about as x^-1.35 (measured, x = 100 to 5000).
-const PHASE: f64 = 0.4;
+const PHASE: f64 = 3.0;
 /// Bounds of the phase per step.
 const PHASES: (f64, f64) = (2e-3, 1.0);
 /// Most steps along the radius.
