@@ -10,9 +10,8 @@
 //! zero at one of the interfaces, which happens at isolated indices and sizes.
 
 use super::bessel::{FLAT, LANES, Pair, RealFunctions, Second, complex_functions};
-use super::matching::{self, Surface};
-use super::{Coefficients, SeriesError};
-use crate::series::checked_term_count;
+use super::matching::{self, Coefficients, Surface};
+use crate::series::{SeriesError, checked_term_count};
 use num_complex::Complex64;
 
 /// One layer: the radius of its outer side in units of the outermost, and its index relative to

@@ -7,9 +7,16 @@
 //! (p not divided by, for it may vanish). Beyond n = x, `N = ψ_n (c - p D_n(x))` with
 //! `D_n = (n+1)/x - ψ_{n+1}/ψ_n`. The wave takes up `Re a - |a|² = -Im(c p*)/|N - iQ|²`.
 
-use super::Coefficients;
 use crate::math::riccati_bessel::{PsiChi, psi_chi};
 use num_complex::Complex64;
+
+/// Coefficients and `Σ (2n+1)(Re(a+b) - |a|² - |b|²)`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Coefficients {
+    pub a: Vec<Complex64>,
+    pub b: Vec<Complex64>,
+    pub absorbed: f64,
+}
 
 /// Field and conjugate at the surface, one per partial wave; index 0 is n = 1.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@
 //! centrifugal term `l(l+1)/ρ²` varies fastest; every jump and every kink of the index is a node, or
 //! the order of the integration is lost. Finer grids halve (or divide by any number) every step.
 
-use super::profile::RadialIndex;
+use super::radial_index::RadialIndex;
 
 /// Steps near the centre, in units of the radius; half of it after one halving.
 const GRADE: f64 = 0.12;

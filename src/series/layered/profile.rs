@@ -6,21 +6,13 @@
 //! difference, 15/16 of the error of the coarser grid, gives the error stated, and is also taken off
 //! (Richardson): the result is better than its statement.
 
-use super::matching::{self, Surface};
+use super::matching::{self, Coefficients, Surface};
 use super::nodes;
+use super::radial_index::RadialIndex;
 use super::steps::{Complex, Fields, LANES, Lanes, Real, Step, advance_complex, advance_real};
-use super::{Coefficients, SeriesError};
-use crate::series::{checked_term_count, term_count};
+use crate::series::{SeriesError, checked_term_count, term_count};
 use num_complex::Complex64;
 use rayon::prelude::*;
-
-/// A radial profile at one wavelength, relative to the outside.
-pub trait RadialIndex: Sync {
-    /// `(n + ik)²` at a radius in (0, 1).
-    fn squared(&self, radius: f64) -> Complex64;
-    /// Radii of jumps and kinks.
-    fn breaks(&self) -> Vec<f64>;
-}
 
 /// e-folds between the start of a wave and its turning point.
 const DEPTH: f64 = 24.0;
