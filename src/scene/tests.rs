@@ -68,6 +68,8 @@ fn known_keys_are_those_of_the_structs() {
             model: Some(Choice(RaindropModel::BeardChuang1987)),
             temperature_c: Some(20.0),
             medium: Some(MediumSpec::default()),
+            outside: Some(MediumSpec::default()),
+            coating: Some(Vec::new()),
         },
         light: LightKeys {
             sun_elevation_deg: Some(0.0),
