@@ -14,6 +14,7 @@ mod mean_sum;
 mod stretch;
 mod sun_disc;
 pub mod table;
+pub mod tmatrix;
 
 use num_complex::Complex64;
 
