@@ -2,8 +2,9 @@
 //!
 //! `cargo bench --bench throughput`; figures are rates, not verdicts.
 
-use gonio::farfield::fan::FanSettings;
-use gonio::farfield::{Direction, FarField, patch};
+use gonio::farfield::FarFieldSettings;
+use gonio::farfield::patches::sheets;
+use gonio::farfield::{Direction, FarField};
 use gonio::shape::{RaindropModel, Shape};
 use gonio::trace::{Tracer, Wavefront};
 use num_complex::Complex64;
@@ -42,7 +43,7 @@ fn patch_rate(shape: &Shape, index: Complex64, size: f64) {
     let tracer = Tracer::new(shape, index, 1.0, 3);
     let wavefront = Wavefront::corners(shape, 200, 400, 0.0123);
     let start = Instant::now();
-    let sheets = patch::sheets(&tracer, &wavefront, &[0, 1, 2, 3]);
+    let sheets = sheets::sheets(&tracer, &wavefront, &[0, 1, 2, 3]);
     let far_field = FarField::patches(shape, sheets, size);
     println!("patches of 4 orders, traced and sorted: {:.2} s", start.elapsed().as_secs_f64());
     let golden = 2.399963229728653;
@@ -66,7 +67,7 @@ fn column_rate(shape: &Shape, index: Complex64, size: f64) {
     let tracer = Tracer::new(shape, index, size, 3).with_curved_interface(size);
     let azimuths: Vec<f64> = (0..=180).map(|i| f64::from(i).to_radians()).collect();
     let orders = [0, 1, 2, 3];
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: size,
         orders: &orders,
         tolerance: 0.01,

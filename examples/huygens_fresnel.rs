@@ -3,8 +3,8 @@
 //!
 //! `cargo run --release --example huygens_fresnel -- sphere|raindrop|spheroid`
 
-use gonio::farfield::fan::FanSettings;
-use gonio::farfield::huygens_fresnel::{HuygensFresnel, Wave};
+use gonio::farfield::FarFieldSettings;
+use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
@@ -78,7 +78,7 @@ fn sphere() -> Result<(), Box<dyn std::error::Error>> {
 
 /// Amplitudes of the ray engine, one order.
 fn engine(tracer: &Tracer, x: f64, order: u32, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: x,
         orders: &[order],
         tolerance: 0.01,

@@ -8,8 +8,8 @@
 //! [`phase_table`] is what all computation produces and all output reads.
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `lee`, `batch` · `simulate` · `farfield` · `trace`, `export` · `plan`, `series`, `hdf5`,
-//! `compare`, `render` · `scene`, `phase_table` · `optics`, `medium`, `shape`, `color`,
+//! `cli` · `lee`, `batch` · `simulate` · `tabulate` · `farfield` · `plan`, `series`, `export` · `hdf5`,
+//! `compare`, `render` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`, `color`,
 //! `size_distribution` · `math`, `pending_file`.
 
 pub mod math;
@@ -23,6 +23,7 @@ pub mod size_distribution;
 
 pub mod phase_table;
 pub mod scene;
+pub mod trace;
 
 pub mod compare;
 #[cfg(feature = "hdf5")]
@@ -33,9 +34,9 @@ pub mod series;
 
 #[cfg(feature = "hdf5")]
 pub mod export;
-pub mod trace;
-
 pub mod farfield;
+
+pub mod tabulate;
 
 pub mod simulate;
 

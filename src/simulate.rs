@@ -4,9 +4,8 @@
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
-use crate::farfield::fan::FanSettings;
-use crate::farfield::patch;
-use crate::farfield::tabulate::{Tabulator, Values};
+use crate::farfield::FarFieldSettings;
+use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::{ErrorEstimate, FarField};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
@@ -18,6 +17,7 @@ use crate::series::debye::Term;
 use crate::series::mean::MeanError;
 use crate::series::table::{Source, SphereJob, sphere_slab};
 use crate::size_distribution::SizeDistribution;
+use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
 use std::f64::consts::TAU;
@@ -106,7 +106,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         forward_peak: scene.forward_peak,
         interference: scene.interference,
         filter: (scene.diffraction == crate::scene::Diffraction::Gaussian)
-            .then(|| crate::farfield::gaussian_filter::standard_deviation(plan.radius)),
+            .then(|| gaussian_filter::standard_deviation(plan.radius)),
         diffraction: plan.forward_diffraction.then(|| far_field.forward_wave()),
         scattering: sections.scattering(),
         shadow_area: far_field.silhouette().area(),
@@ -266,7 +266,7 @@ fn far_field<'a>(
     let tracer = tracer(plan, index, size_parameter);
     if plan.engine == Engine::Meridians {
         let (azimuths, _) = plan.computed_azimuths(azimuths);
-        let settings = FanSettings {
+        let settings = FarFieldSettings {
             size_parameter,
             orders: &plan.orders,
             tolerance: plan.tolerance,
@@ -277,7 +277,11 @@ fn far_field<'a>(
         return FarField::meridians(&tracer, &settings);
     }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
-    FarField::patches(&plan.shape, patch::sheets(&tracer, &wavefront, &plan.orders), size_parameter)
+    FarField::patches(
+        &plan.shape,
+        sheets::sheets(&tracer, &wavefront, &plan.orders),
+        size_parameter,
+    )
 }
 
 /// What traces a plan's rays.

@@ -1,10 +1,11 @@
 //! Sums of Gaussian beams against Debye terms of the sphere and, on raindrops, against the
 //! brute-force Huygens–Fresnel sum; and the check of meridians by beams.
 
-use gonio::farfield::fan::FanSettings;
+use gonio::farfield::FarFieldSettings;
 use gonio::farfield::gaussian_beams::GaussianBeams;
-use gonio::farfield::huygens_fresnel::HuygensFresnel;
-use gonio::farfield::{Direction, FarField, patch};
+use gonio::farfield::patches::sheets;
+use gonio::farfield::reference::huygens_fresnel::HuygensFresnel;
+use gonio::farfield::{Direction, FarField};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};
@@ -98,7 +99,7 @@ fn doubtful_meridians_are_left_to_beams() {
         let sun = 20f64.to_radians();
         let shape = Shape::raindrop(radius, RaindropModel::BeardChuang1987, sun).unwrap();
         let tracer = Tracer::new(&shape, index, x, 1).with_curved_interface(x);
-        let settings = FanSettings {
+        let settings = FarFieldSettings {
             size_parameter: x,
             orders: &[1],
             tolerance: 0.01,
@@ -120,7 +121,7 @@ fn tangled_reflection_is_that_of_plain_rays() {
     let shape = Shape::raindrop(3e-3, RaindropModel::BeardChuang1987, 20f64.to_radians()).unwrap();
     let tracer = Tracer::new(&shape, Complex64::new(1.3314, 0.0), x, 0).with_curved_interface(x);
     let phi = 0.7;
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: x,
         orders: &[0],
         tolerance: 0.01,
@@ -131,7 +132,7 @@ fn tangled_reflection_is_that_of_plain_rays() {
     let tangled = FarField::meridians(&tracer, &settings);
     assert_eq!(tangled.irregular(), [0]);
     let wavefront = Wavefront::corners(&shape, 300, 600, 0.01);
-    let plain = FarField::patches(&shape, patch::sheets(&tracer, &wavefront, &[0]), x);
+    let plain = FarField::patches(&shape, sheets::sheets(&tracer, &wavefront, &[0]), x);
     let directions: Vec<(f64, f64)> =
         angles(30.0, 150.0, 240).into_iter().map(|theta| (theta, phi)).collect();
     let error = error(&tangled.scatter(&directions, false), &plain.scatter(&directions, false));

@@ -1,8 +1,8 @@
 //! The brute-force Huygens–Fresnel sum against exact Debye terms of the sphere, and the ray engine
 //! against the sum around the primary bow of a raindrop, where no exact solution exists.
 
-use gonio::farfield::fan::FanSettings;
-use gonio::farfield::huygens_fresnel::{HuygensFresnel, Wave};
+use gonio::farfield::FarFieldSettings;
+use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
@@ -80,7 +80,7 @@ fn primary_bow_of_a_raindrop() {
         for (from, to, step) in [(135.0, 138.0, 0.5), (138.0, 147.5, 0.5)] {
             let theta = angles(from, to, step);
             let waves = HuygensFresnel::new(x, 2).amplitudes(&tracer, &directions(&theta, phi));
-            let settings = FanSettings {
+            let settings = FarFieldSettings {
                 size_parameter: x,
                 orders: &[2],
                 tolerance: 0.01,
@@ -144,7 +144,7 @@ fn order_at(
     azimuths: &[f64],
     (theta, phi): (&[f64], f64),
 ) -> Vec<AmplitudeMatrix> {
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter,
         orders: &[order],
         tolerance: 0.01,

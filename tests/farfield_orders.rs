@@ -2,7 +2,7 @@
 //! whole against Lorenz–Mie. Bounds stand just above what was measured.
 
 use gonio::farfield::FarField;
-use gonio::farfield::fan::FanSettings;
+use gonio::farfield::FarFieldSettings;
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
@@ -37,7 +37,7 @@ fn rays_of(
 ) -> Vec<AmplitudeMatrix> {
     let last = orders.iter().copied().max().unwrap();
     let tracer = Tracer::new(shape, m, x, last).with_curved_interface(x);
-    let settings = FanSettings {
+    let settings = FarFieldSettings {
         size_parameter: x,
         orders,
         tolerance: 0.01,

@@ -1,13 +1,14 @@
-//! Meridians against Gaussian beams, two independent ways to the same wave.
+//! Scattering planes against Gaussian beams, two independent ways to the same wave.
 //!
-//! On strongly flattened particles rays may gather where no meridian tells (a fold across its plane, a
+//! On strongly flattened particles rays may gather where no plane tells (a fold across its plane, a
 //! branch that its scan does not reach). Beams see every ray, but are a few percent coarser. So for
 //! such particles both are computed at some directions, and an order that differs grossly is left to
 //! the beams.
 
-use super::fan::{Fan, FanSettings};
-use super::gaussian_beams::GaussianBeams;
-use super::tangled::with_beams;
+use crate::farfield::azimuth::plane_set::PlaneSet;
+use crate::farfield::fallback::with_beams;
+use crate::farfield::gaussian_beams::GaussianBeams;
+use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
@@ -28,7 +29,11 @@ const GROSS: f64 = 0.6;
 const FAINT: f64 = 0.05;
 
 /// Regular orders whose waves differ from those of beams by more than beams may err.
-pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings) -> Vec<u32> {
+pub(crate) fn doubtful_orders(
+    planes: &PlaneSet,
+    tracer: &Tracer,
+    settings: &FarFieldSettings,
+) -> Vec<u32> {
     let x = settings.size_parameter;
     if !settings.checked || x < LEAST_SIZE || !with_beams(settings) {
         return Vec::new();
@@ -36,15 +41,16 @@ pub(super) fn doubtful_orders(fan: &Fan, tracer: &Tracer, settings: &FanSettings
     let theta: Vec<f64> =
         (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
     let doubtful = |order: &u32| {
-        let azimuths = fan.some_azimuths(*order, AZIMUTHS);
+        let azimuths = planes.some_azimuths(*order, AZIMUTHS);
         let beams = GaussianBeams::new(tracer, &[*order], &azimuths, x);
         azimuths.into_iter().any(|phi| {
             let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
             beams.add(&theta, phi, &mut waves);
-            differs(&fan.columns_of(*order, &theta, phi), &waves)
+            differs(&planes.columns_of(*order, &theta, phi), &waves)
         })
     };
-    fan.regular_orders(DEFORMED, tracer)
+    planes
+        .regular_orders(DEFORMED, tracer)
         .into_iter()
         .filter(|order| ORDERS.contains(order))
         .filter(doubtful)

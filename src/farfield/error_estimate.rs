@@ -1,13 +1,13 @@
 //! How far a far field may be from the truth, as the method itself can tell.
 //!
-//! Four things are known: what interpolation costs, by tracing meridians half-way between those of the
-//! fan and with twice the knots; the power that is still inside after the last order; how far beams and
+//! Four things are known: what interpolation costs, by tracing planes half-way between those of the
+//! set and with twice the knots; the power that is still inside after the last order; how far beams and
 //! patches are from exact series; and the next terms of the uniform formulas, of the order of `x^{-2/3}`
 //! (a wave zone). Waves that are left out or wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on
 //! average over their phase.
 
-use super::fan::Fan;
-use super::{FarField, Source};
+use super::far_field::{FarField, Source};
+use crate::farfield::azimuth::plane_set::PlaneSet;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
@@ -32,17 +32,17 @@ impl FarField<'_> {
     /// The method's own estimate of its error. `inside` is the power still inside after the last
     /// order, per power on the silhouette. `None` for patches alone, whose error is not known.
     pub fn error_estimate(&self, tracer: &Tracer, inside: f64) -> Option<ErrorEstimate> {
-        let Source::Meridians(fan, tangled) = &self.source else { return None };
+        let Source::Planes(planes, fallback) = &self.source else { return None };
         let x = self.size_parameter;
         // steps of an irrational ratio, so that no sample keeps to the knots
         let place = |k: usize| FROM + (TO - FROM) * (k as f64 * 0.618_033_988_749_895).fract();
         let mut theta: Vec<f64> = (0..SAMPLES).map(place).collect();
         theta.sort_by(f64::total_cmp);
-        let azimuth = fan.checked_azimuth;
-        let missed = fan.missed(tracer, &theta, azimuth);
-        let (waves, doubted) = tangled.doubted(&theta, azimuth);
-        let rays = fan.columns(&theta, &[azimuth]).swap_remove(0);
-        let left_out = inside * self.silhouette.area() * x * x / (4.0 * PI);
+        let azimuth = planes.checked_azimuth;
+        let missed = planes.missed(tracer, &theta, azimuth);
+        let (waves, doubted) = fallback.doubted(&theta, azimuth);
+        let rays = planes.columns(&theta, &[azimuth]).swap_remove(0);
+        let left_out = inside * self.silhouette().area() * x * x / (4.0 * PI);
         let next_terms = x.powf(-4.0 / 3.0);
         let (mut squares, mut intensities, mut relative) = (0.0, 0.0, 0.0);
         for band in 0..BANDS {
@@ -62,12 +62,12 @@ impl FarField<'_> {
     }
 }
 
-impl Fan {
+impl PlaneSet {
     /// `S11` of what interpolation adds or misses, at some scattering angles of an azimuth.
     fn missed(&self, tracer: &Tracer, theta: &[f64], azimuth: f64) -> Vec<f64> {
         let mut missed = vec![0.0; theta.len()];
-        for [fan, traced] in self.checks(tracer, theta, azimuth) {
-            for (sum, (a, b)) in missed.iter_mut().zip(fan.into_iter().zip(traced)) {
+        for [interpolated, traced] in self.checks(tracer, theta, azimuth) {
+            for (sum, (a, b)) in missed.iter_mut().zip(interpolated.into_iter().zip(traced)) {
                 *sum += (a - b).s11();
             }
         }

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use gonio::farfield::Direction;
-use gonio::farfield::huygens_fresnel::HuygensFresnel;
+use gonio::farfield::reference::huygens_fresnel::HuygensFresnel;
 use gonio::plan::{Engine, Plan, last_order};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::{RaindropModel, Shape};

@@ -2,8 +2,10 @@
 //! to 3, and a Gaussian filter about the bows in the place of diffraction (Sadeghi et al. 2012).
 
 use super::case::Case;
-use gonio::farfield::interference::{Interference, PathInterpolation};
-use gonio::farfield::{CollectingSphere, Direction, gaussian_filter, patch};
+use gonio::farfield::Direction;
+use gonio::farfield::patches::collecting_sphere::CollectingSphere;
+use gonio::farfield::patches::interference::{Interference, PathInterpolation};
+use gonio::farfield::patches::{gaussian_filter, sheets};
 use gonio::optics::AmplitudeMatrix;
 use gonio::trace::{Tracer, Wavefront};
 use rayon::prelude::*;
@@ -46,7 +48,7 @@ fn collect(case: &Case, orders: &[u32], rays_across: usize) -> Vec<(AmplitudeMat
     let tracer = Tracer::new(&case.shape, case.index, case.size_parameter, last);
     let rings = rays_across.div_ceil(2);
     let wavefront = Wavefront::corners(&case.shape, rings, 2 * rings, FIRST_SPOKE);
-    let sphere = CollectingSphere::new(patch::sheets(&tracer, &wavefront, orders));
+    let sphere = CollectingSphere::new(sheets::sheets(&tracer, &wavefront, orders));
     let interference = Interference {
         size_parameter: case.size_parameter,
         interpolation: PathInterpolation::Linear,

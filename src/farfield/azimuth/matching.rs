@@ -1,0 +1,269 @@
+//! Tracing the planes of an order at several azimuths, and cutting them into segments that
+//! correspond: the same landmarks, the same knots.
+
+use super::axis_waves::axis_waves;
+use super::cut_layout::{CutLayout, FoldLayout};
+use crate::farfield::branch::knots::{Kind, Knot, Segment};
+use crate::farfield::deflection::curve::DeflectionCurve;
+use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane, axial_ray};
+use crate::farfield::impact_integral::glory::Glory;
+use crate::farfield::impact_integral::near_critical;
+use crate::trace::Tracer;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Largest argument of the Airy functions on the lit side: there the two rays are well apart.
+const LIT_ZETA: f64 = 24.0;
+/// Argument on the dark side at which the field has died away.
+const DARK_ZETA: f64 = 7.5;
+/// Longest reach of a pair segment, radians: beyond, its Chebyshev series would need more points.
+const LONGEST_REACH: f64 = 0.3;
+const LONGEST_DARK: f64 = 0.45;
+
+/// Share of the angle from a fold to the nearest ray near total reflection that its pair may use, and
+/// the argument of its Airy functions that it must reach.
+const CLEARANCE: f64 = 0.9;
+const SHORTEST_ZETA: f64 = 6.0;
+
+/// Scattering planes over a half-turn that decide whether a fold needs an integral.
+const DECIDING: usize = 9;
+
+/// What is traced of an order.
+pub(crate) struct Traced {
+    pub planes: Vec<Vec<Segment>>,
+    /// How they were cut.
+    pub layout: CutLayout,
+    /// Waves about the axis, in rotationally symmetric scenes.
+    pub about_axis: Vec<Glory>,
+}
+
+/// Trace the planes of an order and cut them into corresponding segments.
+pub(crate) fn trace(
+    tracer: &Tracer,
+    order: u32,
+    centre: [f64; 2],
+    places: &[f64],
+    mut layout: CutLayout,
+    caustic_disorder: f64,
+) -> Option<Traced> {
+    let silhouette = tracer.shape().silhouette().tabulated();
+    let curve = |phi: f64| {
+        DeflectionCurve::new(
+            ScatteringPlane::new(tracer, order, phi, centre),
+            &silhouette,
+            layout.scanning(),
+        )
+    };
+    // A few planes far apart tell soon whether all can correspond.
+    let probes = [0.0, 0.5, 1.0, 0.25, 0.75].map(|f| (f * (places.len() - 1) as f64) as usize);
+    let signature = curve(places[probes[0]])?.signature();
+    let differs = |k: &&usize| curve(places[**k]).is_none_or(|a| a.signature() != signature);
+    if probes.iter().filter(differs).count() > 1 {
+        return None;
+    }
+    let curves: Vec<Option<DeflectionCurve>> = places
+        .par_iter()
+        .map(|&phi| curve(phi).filter(|curve| curve.signature() == signature))
+        .collect();
+    let found: Vec<&DeflectionCurve> = curves.iter().flatten().collect();
+    if places.len() - found.len() > most_missing(places.len()) {
+        return None;
+    }
+    // others decide on a fold's segment, too, so that few azimuths are treated as many are
+    let deciding = near_critical::serves(tracer, order) && places.len() < DECIDING;
+    let others: Vec<Option<DeflectionCurve>> = (0..if deciding { DECIDING } else { 0 })
+        .map(|j| curve(PI * j as f64 / (DECIDING - 1) as f64))
+        .map(|curve| curve.filter(|curve| curve.signature() == signature))
+        .collect();
+    let all: Vec<&DeflectionCurve> = found.iter().copied().chain(others.iter().flatten()).collect();
+    layout.folds = fold_reaches(&all, layout.axis_gap, layout.size_parameter);
+    if let Some(rim) = &mut layout.rim {
+        let index = tracer.index().re;
+        rim.spread_knots(&found, layout.axis_gap, index, caustic_disorder, layout.size_parameter)?;
+    }
+    let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
+    for _ in 0..shrinks {
+        if let Some((planes, layout)) = cut(&curves, &others, &layout) {
+            let symmetric = tracer.shape().rotational_symmetry();
+            let about_axis =
+                if symmetric { axis_waves(found.first()?, &layout) } else { Vec::new() };
+            return Some(Traced { planes, layout, about_axis });
+        }
+        layout.folds.iter_mut().for_each(|fold| {
+            fold.dark *= 0.6;
+            fold.lit *= 0.95;
+        });
+    }
+    None
+}
+
+/// Scattering planes that may be filled from their neighbours: rays get lost here and there where a
+/// plane grazes a tangle of rays.
+fn most_missing(count: usize) -> usize {
+    count / 10
+}
+
+/// How often the reach of pair segments is shortened when a complex ray cannot be found.
+const SHRINKS: usize = 6;
+
+/// Reach on the dark and lit side of each fold, common to all planes.
+fn fold_reaches(
+    curves: &[&DeflectionCurve],
+    axis_gap: f64,
+    size_parameter: f64,
+) -> Vec<FoldLayout> {
+    let measured: Vec<Vec<(f64, f64)>> = curves.iter().map(|curve| curve.folds(axis_gap)).collect();
+    let count = measured.first().map_or(0, Vec::len);
+    let unit = size_parameter.powf(-2.0 / 3.0);
+    (0..count)
+        .map(|f| {
+            let weakest = measured.iter().map(|m| m[f].0).fold(f64::MAX, f64::min);
+            let strongest = measured.iter().map(|m| m[f].0).fold(0.0, f64::max);
+            let room = measured.iter().map(|m| m[f].1).fold(f64::MAX, f64::min);
+            let dark = (DARK_ZETA * unit / weakest).min(LONGEST_DARK);
+            let lit = (LIT_ZETA * unit / weakest).min(0.97 * room).min(LONGEST_REACH);
+            FoldLayout { dark, lit, per_angle: strongest / unit, integral: None }
+        })
+        .collect()
+}
+
+/// All segments of all planes, with common numbers of knots.
+fn cut(
+    curves: &[Option<DeflectionCurve>],
+    others: &[Option<DeflectionCurve>],
+    layout: &CutLayout,
+) -> Option<(Vec<Vec<Segment>>, CutLayout)> {
+    type Ends = Vec<[Node; 2]>;
+    let find_ends = |curves: &[Option<DeflectionCurve>], layout: &CutLayout| -> Vec<Option<Ends>> {
+        curves.par_iter().map(|curve| curve.as_ref().and_then(|curve| curve.ends(layout))).collect()
+    };
+    let mut layout = layout.clone();
+    let mut ends = find_ends(curves, &layout);
+    layout.cut = before_the_ends(ends.iter().flatten().filter_map(|ends| ends.last()));
+    if layout.cut.is_some() {
+        ends = find_ends(curves, &layout);
+    }
+    let other_ends = find_ends(others, &layout);
+    let all = curves.iter().chain(others).zip(ends.iter().chain(&other_ends));
+    let deciding: Vec<(&DeflectionCurve, &Ends)> =
+        all.filter_map(|(curve, ends)| curve.as_ref().zip(ends.as_ref())).collect();
+    if avoid_total_reflection(&deciding, &mut layout) {
+        ends = find_ends(curves, &layout);
+    }
+    let plain_count = ends.iter().flatten().next()?.len();
+    let pieces = |s: usize| ends.iter().flatten().map(|e| layout.pieces(&e[s])).max().unwrap_or(0);
+    layout.knots = (0..plain_count).map(pieces).collect();
+    let segments =
+        |(curve, ends): (&Option<DeflectionCurve>, &Option<Ends>)| -> Option<Vec<Segment>> {
+            curve.as_ref()?.segments(&layout, ends.as_ref()?)
+        };
+    let cut: Vec<Option<Vec<Segment>>> = curves.par_iter().zip(&ends).map(segments).collect();
+    let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
+    // a fold's integral on one plane may be a pair on another, whose impacts do not serve
+    let alike = |(a, b): (&Segment, &Kind)| {
+        a.kind == *b
+            || matches!(
+                (a.kind, b),
+                (Kind::Wave, Kind::Pair { .. }) | (Kind::Pair { .. }, Kind::Wave)
+            )
+    };
+    let same_kind =
+        |m: &Vec<Segment>| m.len() == template.len() && m.iter().zip(&template).all(alike);
+    let filled = fill_missing(cut.into_iter().map(|m| m.filter(same_kind)).collect())?;
+    Some((filled, layout))
+}
+
+/// One more plane, cut like those of a layout.
+pub(crate) fn another(
+    tracer: &Tracer,
+    order: u32,
+    azimuth: f64,
+    layout: &CutLayout,
+) -> Option<Vec<Segment>> {
+    let silhouette = tracer.shape().silhouette().tabulated();
+    let centre = axial_ray(tracer, order);
+    let curve = DeflectionCurve::new(
+        ScatteringPlane::new(tracer, order, azimuth, centre),
+        &silhouette,
+        layout.scanning(),
+    )?;
+    curve.segments(layout, &curve.ends(layout)?)
+}
+
+/// Where to cut last segments whose last rays differ from plane to plane, as they do where some
+/// are totally reflected: their knots would jump along.
+fn before_the_ends<'e>(last: impl Iterator<Item = &'e [Node; 2]> + Clone) -> Option<f64> {
+    const ALIKE: f64 = 1e-3;
+    const SHORTEST: f64 = 0.05;
+    const SPARE: f64 = 0.04;
+    let begin = last.clone().map(|[a, _]| a.alpha).fold(0.0, f64::max);
+    let ends = || last.clone().map(|[_, b]| b.alpha);
+    let (low, high) = (ends().fold(f64::MAX, f64::min), ends().fold(0.0, f64::max));
+    let serves = high - low > ALIKE && low - begin > SHORTEST;
+    serves.then_some(low - SPARE * (low - begin))
+}
+
+/// Keep folds' segments from rays near total reflection, on all planes: those that would be left too
+/// short for single rays beyond become integrals, as far as all planes' impacts serve. Whether
+/// any changed.
+fn avoid_total_reflection(
+    curves: &[(&DeflectionCurve, &Vec<[Node; 2]>)],
+    layout: &mut CutLayout,
+) -> bool {
+    let critical: Vec<Vec<f64>> =
+        curves.iter().map(|(curve, ends)| near_critical::critical_angles(curve, ends)).collect();
+    let mut changed = false;
+    for (f, fold) in layout.folds.iter_mut().enumerate() {
+        let nearest =
+            CLEARANCE * critical.iter().map(|curve| curve[f]).fold(f64::INFINITY, f64::min);
+        if nearest > fold.lit {
+            continue;
+        }
+        changed = true;
+        if nearest * fold.per_angle > SHORTEST_ZETA {
+            fold.lit = nearest;
+            continue;
+        }
+        let reach = |(curve, _): &(&DeflectionCurve, _)| {
+            near_critical::integral_reach(curve, f, layout.size_parameter)
+        };
+        let reaches: Vec<f64> = curves.iter().filter_map(reach).collect();
+        if reaches.is_empty() {
+            continue;
+        }
+        let reach = reaches.into_iter().fold(fold.lit, f64::min);
+        if reach * fold.per_angle > SHORTEST_ZETA {
+            fold.lit = reach;
+            fold.integral = Some(near_critical::knots([fold.dark, fold.lit], fold.per_angle));
+        }
+    }
+    changed
+}
+
+/// Fill planes that were not found from the nearest on both sides. `None` when too many or an
+/// outer one is missing.
+fn fill_missing(mut planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
+    let count = planes.len();
+    if planes.iter().filter(|m| m.is_none()).count() > most_missing(count) {
+        return None;
+    }
+    for k in 0..count {
+        if planes[k].is_some() {
+            continue;
+        }
+        let after = (k + 1..count).find(|&j| planes[j].is_some())?;
+        let before = k.checked_sub(1)?;
+        let share = 1.0 / (after - before) as f64;
+        let (a, b) = (planes[before].as_ref()?, planes[after].as_ref()?);
+        if a.iter().zip(b).any(|(a, b)| a.kind != b.kind) {
+            return None;
+        }
+        let between = |(a, b): (&Segment, &Segment)| {
+            let knot =
+                |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
+            Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
+        };
+        planes[k] = Some(a.iter().zip(b).map(between).collect());
+    }
+    planes.into_iter().collect()
+}

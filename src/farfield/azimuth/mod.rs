@@ -1,0 +1,10 @@
+//! Scattering planes at several azimuths: cut into matching segments, checked for smoothness, and
+//! interpolated to any azimuth.
+
+mod axis_waves;
+pub mod azimuthal_smoothness;
+pub mod cut_layout;
+pub mod matching;
+pub mod order_planes;
+pub mod plane_set;
+pub mod segments;

@@ -1,0 +1,172 @@
+//! Scattering planes of all orders, and columns at any azimuth.
+//!
+//! Scattering planes are traced at a few azimuths of one half-turn; the mirror plane gives the others. Where
+//! all planes of an order have the same landmarks, their segments vary smoothly with azimuth and
+//! any column is interpolated from eight neighbours. When few columns are asked for, their own
+//! planes are traced instead. Orders whose planes do not correspond (more than two rays
+//! coalesce somewhere: cusps, umbilics) are named in [`PlaneSet::irregular`].
+
+use super::matching::another;
+use super::order_planes::{Azimuths, OrderPlanes, caustic_disorder, mirror};
+use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
+use crate::farfield::forward::diffraction::ForwardDiffraction;
+use crate::farfield::forward::penumbra::Penumbra;
+use crate::farfield::settings::FarFieldSettings;
+use crate::optics::AmplitudeMatrix;
+use crate::trace::Tracer;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// All planes of one wavelength.
+pub struct PlaneSet {
+    size_parameter: f64,
+    orders: Vec<OrderPlanes>,
+    edge: Option<Penumbra>,
+    /// The azimuth asked for that is about as far as can be from those traced.
+    pub(crate) checked_azimuth: f64,
+    /// Orders that this method does not represent.
+    pub irregular: Vec<u32>,
+}
+
+/// Where interpolation over azimuth is checked: off the even steps by nearly half of one, for both
+/// numbers of steps.
+const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
+
+impl PlaneSet {
+    /// Trace all planes of a particle with this shadow.
+    pub fn new(tracer: &Tracer, settings: &FarFieldSettings, shadow: &ForwardDiffraction) -> Self {
+        let joined = settings.diffraction && settings.orders.contains(&0);
+        let edge = joined.then(|| Penumbra::new(tracer, shadow, settings.size_parameter)).flatten();
+        let traced_orders: Vec<(u32, Option<OrderPlanes>)> = settings
+            .orders
+            .par_iter()
+            .map(|&order| {
+                let edge = edge.as_ref().filter(|_| order == 0);
+                (order, OrderPlanes::new(tracer, order, settings, edge))
+            })
+            .collect();
+        let irregular: Vec<u32> =
+            traced_orders.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
+        let orders = traced_orders.into_iter().filter_map(|f| f.1).collect();
+        let edge = edge.filter(|_| !irregular.contains(&0));
+        let off = |azimuth: &f64| (azimuth - CHECKED_AZIMUTH).abs();
+        let nearest = settings.azimuths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let checked_azimuth = nearest.copied().unwrap_or(CHECKED_AZIMUTH);
+        let size_parameter = settings.size_parameter;
+        Self { size_parameter, orders, edge, checked_azimuth, irregular }
+    }
+
+    /// The edge wave, if diffraction and order 0 are joined.
+    pub fn edge(&self) -> Option<&Penumbra> {
+        self.edge.as_ref()
+    }
+
+    /// Orders that are represented, whose rays stray by more than `least` (see [`caustic_disorder`]).
+    pub(crate) fn regular_orders(&self, least: f64, tracer: &Tracer) -> Vec<u32> {
+        let orders = self.orders.iter().map(|planes| planes.order);
+        orders.filter(|&order| caustic_disorder(tracer, order) > least).collect()
+    }
+
+    /// Some azimuths at which an order can be asked for.
+    pub(crate) fn some_azimuths(&self, order: u32, count: usize) -> Vec<f64> {
+        let place = |k: usize| (k as f64 + 0.31) / count as f64;
+        match self.orders.iter().find(|planes| planes.order == order).map(|planes| &planes.azimuths)
+        {
+            Some(Azimuths::Even) => (0..count).map(|k| PI * place(k)).collect(),
+            Some(Azimuths::Listed(list)) => {
+                let mut some: Vec<f64> =
+                    (0..count).map(|k| list[(place(k) * list.len() as f64) as usize]).collect();
+                some.dedup();
+                some
+            }
+            Some(Azimuths::Any) => vec![0.0],
+            None => Vec::new(),
+        }
+    }
+
+    /// Leave an order to others.
+    pub(crate) fn give_up(&mut self, order: u32) {
+        self.orders.retain(|planes| planes.order != order);
+        self.irregular.push(order);
+        self.irregular.sort_unstable();
+    }
+
+    /// One order's amplitudes at samples θ (ascending) of an azimuth in [0, π].
+    pub(crate) fn columns_of(&self, order: u32, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
+        let orders = self.orders.iter().filter(|planes| planes.order == order);
+        self.columns_of_orders(orders, theta, &[phi]).swap_remove(0)
+    }
+
+    /// Amplitudes at samples θ (ascending) of some azimuths in [0, π], without forward diffraction.
+    pub fn columns(&self, theta: &[f64], azimuths: &[f64]) -> Vec<Vec<AmplitudeMatrix>> {
+        self.columns_of_orders(self.orders.iter(), theta, azimuths)
+    }
+
+    /// Segment by segment for all azimuths, so that what they are interpolated from stays in cache.
+    fn columns_of_orders<'f>(
+        &self,
+        orders: impl Iterator<Item = &'f OrderPlanes> + Clone,
+        theta: &[f64],
+        azimuths: &[f64],
+    ) -> Vec<Vec<AmplitudeMatrix>> {
+        let x = self.size_parameter;
+        let samples = Samples::new(theta);
+        let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(&samples)).collect();
+        for planes in orders.clone() {
+            for number in 0..planes.segments_per_plane() {
+                let near = planes.meets(number, theta, Side::Near);
+                for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| near) {
+                    let segment = planes.segment(number, azimuth);
+                    add_segment(sums, &samples, &segment, Side::Near, x);
+                }
+                let far = planes.meets(number, theta, Side::Far);
+                for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| far) {
+                    // the plane of φ + π is the mirror image of that of π - φ
+                    let mut segment = planes.segment(number, PI - azimuth).into_owned();
+                    mirror(&mut segment);
+                    add_segment(sums, &samples, &segment, Side::Far, x);
+                }
+            }
+        }
+        let mut columns: Vec<Vec<AmplitudeMatrix>> =
+            sums.into_iter().map(|sums| sums.amplitudes()).collect();
+        for wave in orders.flat_map(|planes| &planes.about_axis) {
+            columns.iter_mut().for_each(|column| wave.add(theta, column));
+        }
+        columns
+    }
+
+    /// For every order, amplitudes of its rays on the near side of an azimuth's plane: interpolated,
+    /// and traced there with twice the knots.
+    pub(crate) fn checks(
+        &self,
+        tracer: &Tracer,
+        theta: &[f64],
+        azimuth: f64,
+    ) -> Vec<[Vec<AmplitudeMatrix>; 2]> {
+        let samples = Samples::new(theta);
+        let check = |planes: &OrderPlanes| {
+            let traced = another(tracer, planes.order, azimuth, &planes.layout.finer())?;
+            let mut sums = [Sums::new(&samples), Sums::new(&samples)];
+            for (number, segment) in traced.iter().enumerate() {
+                let interpolated = planes.segment(number, azimuth);
+                for (sums, segment) in sums.iter_mut().zip([interpolated.as_ref(), segment]) {
+                    add_segment(sums, &samples, segment, Side::Near, self.size_parameter);
+                }
+            }
+            Some(sums.map(|sums| sums.amplitudes()))
+        };
+        self.orders.par_iter().filter_map(check).collect()
+    }
+
+    /// How many rays more than two may coalesce near each sample: 3 within an axis gap, else 0.
+    pub fn caustic_order(&self, theta: &[f64]) -> Vec<u8> {
+        let gap = |axis: f64| {
+            let meets = |f: &&OrderPlanes| f.about_axis.is_empty() && f.crosses(axis);
+            self.orders.iter().filter(meets).map(|f| f.axis_gap).fold(0.0, f64::max)
+        };
+        let (forward, backward) = (gap(0.0), gap(PI));
+        let marked = |t: f64| t < forward || PI - t < backward;
+        theta.iter().map(|&t| if marked(t) { 3 } else { 0 }).collect()
+    }
+}

@@ -1,0 +1,215 @@
+//! The segments of a curve: data at their knots.
+
+use super::cut_layout::CutLayout;
+use crate::farfield::branch::knots::{
+    CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
+};
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::curve::DeflectionCurve;
+use crate::farfield::deflection::fold::{Fold, PAIR_CHANNELS};
+use crate::farfield::deflection::landmark::Landmark;
+use crate::farfield::deflection::scan::Edge;
+use crate::farfield::deflection::scattering_plane::Node;
+use crate::farfield::impact_integral::near_critical::{self, Stretch};
+use crate::farfield::impact_integral::near_grazing::NearGrazing;
+use crate::math::chebyshev::Chebyshev;
+use num_complex::Complex64;
+
+/// Chebyshev points of a pair segment.
+const PAIR_POINTS: usize = 20;
+
+impl DeflectionCurve<'_> {
+    /// The rays at both ends of each plain segment. `None` where one cannot be found.
+    pub fn ends(&self, layout: &CutLayout) -> Option<Vec<[Node; 2]>> {
+        let mut ends = Vec::new();
+        let mut fold_number = 0;
+        let cut = layout.cut.map(Landmark::Cut);
+        for pair in self.marks(&cut).windows(2) {
+            let before_fold = fold_number;
+            fold_number += usize::from(matches!(pair[0], Landmark::Fold(_)));
+            let edge = |number: usize| layout.folds.get(number).map(|f| f.lit);
+            let from = self.edge(pair[0], edge(before_fold), layout)?;
+            let to = self.edge(pair[1], edge(fold_number), layout)?;
+            ends.push([self.find(from, true)?, self.find(to, false)?]);
+        }
+        Some(ends)
+    }
+
+    /// The landmarks, with one more before the last.
+    pub(crate) fn marks<'l>(&'l self, cut: &'l Option<Landmark>) -> Vec<&'l Landmark> {
+        let mut marks: Vec<&Landmark> = self.landmarks.iter().collect();
+        if let Some(cut) = cut {
+            marks.insert(marks.len() - 1, cut);
+        }
+        marks
+    }
+
+    /// The ray where a plain segment begins or ends at a landmark; towards the neighbour given by
+    /// the reach of its fold or the axis gap.
+    fn edge(&self, landmark: &Landmark, reach: Option<f64>, layout: &CutLayout) -> Option<Edge> {
+        Some(match landmark {
+            Landmark::Axial => Edge::Alpha(0.0),
+            Landmark::Cut(alpha) => Edge::Alpha(*alpha),
+            Landmark::End(node) => Edge::Last(node.clone()),
+            Landmark::Fold(fold) => {
+                Edge::Angle { angle: fold.angle + fold.lit * reach?, near: fold.alpha }
+            }
+            Landmark::Axis(axis) => Edge::Axis { axis: *axis, gap: layout.axis_gap },
+        })
+    }
+
+    /// Cut into segments between the ends found before. `None` where a ray cannot be found.
+    pub fn segments(&self, layout: &CutLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
+        let mut segments = Vec::new();
+        let mut folds = layout.folds.iter();
+        let cut = layout.cut.map(Landmark::Cut);
+        for (k, (pair, count)) in self.marks(&cut).windows(2).zip(&layout.knots).enumerate() {
+            if let Landmark::Fold(fold) = pair[0] {
+                let about = folds.next()?;
+                let x = layout.size_parameter;
+                let stretch = || Stretch::of_fold(self, fold, k, x);
+                let integral =
+                    about.integral.as_ref().and_then(|places| Some((places, stretch()?)));
+                segments.push(match integral {
+                    Some((places, stretch)) => {
+                        let rays = [&ends[k - 1][1], &ends[k][0]];
+                        near_critical::segment(self, fold, &stretch, rays, places, x)?
+                    }
+                    None => self.pair_segment(fold, about.dark, about.lit, layout)?,
+                });
+            }
+            segments.push(self.plain_segment([pair[0], pair[1]], &ends[k], *count, layout)?);
+        }
+        if let Some(rim) = &layout.rim {
+            segments.extend(NearGrazing::new(self, rim, layout.size_parameter)?.segments()?);
+        }
+        Some(segments)
+    }
+
+    fn pair_segment(
+        &self,
+        fold: &Fold,
+        dark: f64,
+        reach: f64,
+        layout: &CutLayout,
+    ) -> Option<Segment> {
+        let series = fold.sample(self.plane(), dark, reach, PAIR_POINTS)?;
+        let count = 2 + (1.5 * layout.density * (dark + reach)).ceil() as usize;
+        let knots = (0..=count)
+            .map(|k| pair_knot(fold, &series, -dark + (dark + reach) * k as f64 / count as f64))
+            .collect();
+        Some(Segment { kind: Kind::Pair { focal_lines: fold.focal_lines }, knots })
+    }
+
+    /// One ray per direction between two landmarks, at `count + 1` knots.
+    fn plain_segment(
+        &self,
+        [start, end]: [&Landmark; 2],
+        [a, b]: &[Node; 2],
+        count: usize,
+        layout: &CutLayout,
+    ) -> Option<Segment> {
+        // about the axis of other particles rays are few and far from those of a sphere
+        let symmetric = self.plane().tracer.shape().rotational_symmetry();
+        let closer = [
+            symmetric && matches!(start, Landmark::Axis(_)),
+            matches!(end, Landmark::End(_)) || symmetric && matches!(end, Landmark::Axis(_)),
+        ];
+        let mut knots = Vec::with_capacity(count + 1);
+        let mut focal_lines = a.exit.focal_lines;
+        for k in 0..=count {
+            let share = graded(k as f64 / count as f64, closer);
+            let node = if k == 0 {
+                *a
+            } else if k == count {
+                *b
+            } else {
+                self.interpolated(a.alpha + share * (b.alpha - a.alpha))?
+            };
+            if 2 * k == count || 2 * k == count + 1 {
+                focal_lines = node.exit.focal_lines;
+            }
+            knots.push(self.plain_knot(&node, layout));
+        }
+        let slopes = parabola_slopes(&knots);
+        for (knot, slope) in knots.iter_mut().zip(slopes) {
+            knot[SLOPE..SLOPE + 8].copy_from_slice(&slope[PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 8]);
+        }
+        let from_axis = matches!(start, Landmark::Axial);
+        Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })
+    }
+
+    /// The spread of a ray, kept from zero where rays meet across the plane.
+    fn bounded_spread(&self, node: &Node) -> f64 {
+        const NEAREST: f64 = 0.05;
+        let spread = node.exit.spread().abs();
+        let symmetric = self.plane().tracer.shape().rotational_symmetry();
+        if self.plane().order <= 3 || symmetric {
+            return spread;
+        }
+        let across = self.plane().spread_across(&node.exit, node.angle).abs();
+        spread * (across.max(NEAREST) / across)
+    }
+
+    fn plain_knot(&self, node: &Node, layout: &CutLayout) -> Knot {
+        let (_, growing) = self.plane().frame(node.angle);
+        let transfer = self.plane().transfer(&node.exit, node.angle);
+        let rim = layout.rim.as_ref().map(|rim| rim.weight(node.alpha.sin()));
+        let edge =
+            layout.edge.map(|edge| reflected_share(&edge, node.angle, layout.size_parameter));
+        let share = edge.unwrap_or_else(|| (1.0 - rim.unwrap_or(0.0)).into());
+        // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
+        // that focus at infinity, as about the axis for indices of 2 and 4.
+        let spread = self.bounded_spread(node).max(4.0 / layout.size_parameter.powi(2));
+        let size = share / spread.sqrt();
+        let mut knot = [0.0; CHANNELS];
+        knot[0] = node.angle;
+        knot[1] = node.exit.path;
+        knot[2] = -node.exit.reference.dot(growing);
+        for (k, s) in [transfer.s1, transfer.s2, transfer.s3, transfer.s4].into_iter().enumerate() {
+            let amplitude = s * size;
+            knot[PLAIN_AMPLITUDE + 2 * k] = amplitude.re;
+            knot[PLAIN_AMPLITUDE + 2 * k + 1] = amplitude.im;
+        }
+        knot
+    }
+}
+
+/// What the edge wave leaves to a ray reflected by an angle: the complement of its weight, with the
+/// next term of stationary phase, since the weight changes over few Fresnel zones.
+fn reflected_share(edge: &Window, angle: f64, x: f64) -> Complex64 {
+    let cos = (0.5 * angle).cos();
+    let [weight, slope, bend] = edge.with_derivatives(cos);
+    if weight == 0.0 || weight == 1.0 {
+        return (1.0 - weight).into();
+    }
+    // the phase x (L(β) - βϑ) of a sphere: second derivative, and its own relative slope
+    let sin = (1.0 - cos * cos).sqrt();
+    let (second, relative) = (-2.0 / sin, cos / (sin * sin));
+    Complex64::new(1.0 - weight, (relative * slope - bend) / (2.0 * x * second))
+}
+
+/// A share of the way from 0 to 1 in steps that get closer towards either end: towards the rim or
+/// total reflection the exit angle runs like a square root, and from the axis the amplitude falls
+/// like one over it.
+fn graded(share: f64, closer: [bool; 2]) -> f64 {
+    match closer {
+        [false, false] => share,
+        [false, true] => share * (2.0 - share),
+        [true, false] => share * share,
+        [true, true] => share * share * (3.0 - 2.0 * share),
+    }
+}
+
+fn pair_knot(fold: &Fold, series: &Chebyshev<PAIR_CHANNELS>, delta: f64) -> Knot {
+    let (value, slope) = series.at(delta);
+    let mut knot = [0.0; CHANNELS];
+    knot[0] = fold.angle + fold.lit * delta;
+    knot[1] = value[0];
+    knot[2] = fold.lit * slope[0];
+    knot[3] = value[1];
+    knot[4] = fold.lit * slope[1];
+    let amplitudes = &value[2..];
+    knot[PAIR_AMPLITUDE..PAIR_AMPLITUDE + amplitudes.len()].copy_from_slice(amplitudes);
+    knot
+}

@@ -1,0 +1,6 @@
+//! Branches of a deflection curve as knots, the smooth windows by which they share rays with integrals,
+//! and the sum of their waves over samples.
+
+pub mod accumulate;
+pub mod knots;
+pub mod window;

@@ -1,0 +1,37 @@
+//! Where an integral over rays takes over from single rays: an infinitely smooth weight.
+
+/// A weight that rises from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Where it leaves 0.
+    pub start: f64,
+    /// Where it reaches 1.
+    pub full: f64,
+}
+
+impl Window {
+    /// The weight at a place: all its derivatives vanish at both ends.
+    pub fn weight(&self, place: f64) -> f64 {
+        self.with_derivatives(place)[0]
+    }
+
+    /// The weight and its first and second derivative.
+    pub fn with_derivatives(&self, place: f64) -> [f64; 3] {
+        let width = self.full - self.start;
+        let t = (place - self.start) / width;
+        if t <= 1e-3 {
+            return [0.0; 3];
+        }
+        if t >= 1.0 - 1e-3 {
+            return [1.0, 0.0, 0.0];
+        }
+        let u = 1.0 - t;
+        // w = 1/(1 + e^g)
+        let (g, g1, g2) =
+            (1.0 / t - 1.0 / u, -1.0 / (t * t) - 1.0 / (u * u), 2.0 / t.powi(3) - 2.0 / u.powi(3));
+        let w = 1.0 / (1.0 + g.exp());
+        let w1 = -w * (1.0 - w) * g1;
+        let w2 = -w1 * (1.0 - 2.0 * w) * g1 - w * (1.0 - w) * g2;
+        [w, w1 / width, w2 / (width * width)]
+    }
+}

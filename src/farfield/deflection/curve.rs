@@ -1,0 +1,179 @@
+//! Deflection curves: the rays of one order in one scattering plane, cut into segments with smooth data at knots.
+//!
+//! Between axial ray, folds, axis crossings and rim the exit angle is monotone: a *plain* segment,
+//! one ray per direction. About a fold, a *pair* segment holds both rays in their analytic
+//! combinations, on the lit and on the dark side. Knots sit at the same fractions of a segment on
+//! every plane, so that all their data vary smoothly with azimuth too.
+
+use super::fold::Fold;
+use super::landmark::Landmark;
+use super::scan::{Edge, Scan, ScannedRays};
+use super::scattering_plane::{Node, ScatteringPlane};
+use crate::shape::Silhouette;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A plane with its landmarks found, ready to be cut into segments.
+pub struct DeflectionCurve<'a> {
+    rays: ScannedRays<'a>,
+    pub(crate) landmarks: Vec<Landmark>,
+    last: Node,
+}
+
+impl<'a> DeflectionCurve<'a> {
+    /// Scan a plane. `None` when its rays do not form a chain this method understands.
+    pub fn new(
+        plane: ScatteringPlane<'a>,
+        silhouette: &'a Silhouette<'a>,
+        scan: Scan,
+    ) -> Option<Self> {
+        let rays = ScannedRays::new(plane, silhouette, scan)?;
+        let last = *rays.nodes.last()?;
+        let mut curve = Self { rays, landmarks: vec![Landmark::Axial], last };
+        curve.find_landmarks(FRAC_PI_2 / scan.nodes as f64, scan.limit)?;
+        Some(curve)
+    }
+
+    /// Find the landmarks of rays launched up to `limit` (in α), and the last ray of all.
+    fn find_landmarks(&mut self, step: f64, limit: f64) -> Option<()> {
+        let start = self.rays.plane.axis_angle();
+        for k in 1..self.rays.nodes.len() {
+            let (a, b) = (self.rays.nodes[k - 1], self.rays.nodes[k]);
+            let half_turn = |n: &Node| ((n.angle - start) / PI).floor();
+            let before = half_turn(&a);
+            let crosses = before != half_turn(&b) && k > 1;
+            if b.alpha > limit {
+                if b.alpha - a.alpha > 1.5 * step {
+                    self.rays.nodes.truncate(k);
+                    break;
+                }
+            } else if crosses {
+                // the multiple of π between the two angles
+                let axis = start + PI * before.max(half_turn(&b));
+                self.landmarks.push(Landmark::Axis(axis));
+            } else if b.alpha - a.alpha > 1.5 * step {
+                // total reflection: what lies beyond is not followed
+                self.rays.nodes.truncate(k);
+                break;
+            } else if a.exit.spread() * b.exit.spread() < 0.0 && self.turns_back(k) {
+                let fold = Fold::between(&self.rays.plane, self.rays.silhouette, &a, &b)?;
+                self.landmarks.push(Landmark::Fold(fold));
+            }
+        }
+        let last = *self.rays.nodes.last()?;
+        self.last = self.rays.end_after(last, step);
+        if self.last.alpha > last.alpha {
+            self.rays.nodes.push(self.last);
+        }
+        let end = if self.last.alpha > limit { self.rays.interpolated(limit)? } else { self.last };
+        self.landmarks.push(Landmark::End(Box::new(end)));
+        Some(())
+    }
+
+    /// Whether the exit angle turns back between nodes `k - 1` and `k`: a fold of the plane. Else
+    /// a change of the spread's sign means that rays meet across the plane, as they do
+    /// near the axis for flattened particles.
+    fn turns_back(&self, k: usize) -> bool {
+        let angle = |k: usize| self.rays.nodes.get(k).map(|n| n.angle);
+        let here = self.rays.nodes[k].angle - self.rays.nodes[k - 1].angle;
+        let before =
+            k.checked_sub(2).and_then(angle).map_or(here, |a| self.rays.nodes[k - 1].angle - a);
+        let after = angle(k + 1).map_or(here, |a| a - self.rays.nodes[k].angle);
+        before * after < 0.0
+    }
+
+    /// The plane that this curve is.
+    pub fn plane(&self) -> &ScatteringPlane<'a> {
+        &self.rays.plane
+    }
+
+    /// The rays of the scan.
+    pub(crate) fn nodes(&self) -> &[Node] {
+        &self.rays.nodes
+    }
+
+    /// The ray at an edge of a plain segment.
+    pub(crate) fn find(&self, edge: Edge, is_start: bool) -> Option<Node> {
+        self.rays.find(edge, is_start)
+    }
+
+    /// The ray launched at `α`.
+    pub(crate) fn interpolated(&self, alpha: f64) -> Option<Node> {
+        self.rays.interpolated(alpha)
+    }
+
+    /// The last ray that leaves.
+    pub fn last_ray(&self) -> &Node {
+        &self.last
+    }
+
+    /// The ray launched at `sin α`.
+    pub fn ray_at(&self, sin: f64) -> Option<Node> {
+        self.rays.interpolated(sin.asin())
+    }
+
+    /// Exit angles relative to that of the ray at `sin α = start`: the farthest in the direction in
+    /// which rays go from there to `sin α = full`, and that of the last ray.
+    pub fn reaches(&self, start: f64, full: f64) -> Option<[f64; 2]> {
+        let first = self.ray_at(start)?;
+        let sense = (self.ray_at(full)?.angle - first.angle).signum();
+        let beyond = self.rays.nodes.iter().filter(|n| n.alpha > first.alpha);
+        let farthest = beyond.map(|n| sense * (n.angle - first.angle)).fold(0.0, f64::max);
+        Some([sense * farthest, self.last.angle - first.angle])
+    }
+
+    /// Signature by which planes correspond.
+    pub fn signature(&self) -> String {
+        let letter = |l: &Landmark| match l {
+            Landmark::Axial => 'A',
+            Landmark::Fold(fold) if fold.lit > 0.0 => 'F',
+            Landmark::Fold(_) => 'f',
+            Landmark::Axis(_) => 'X',
+            Landmark::Cut(_) => '|',
+            Landmark::End(_) => 'E',
+        };
+        self.landmarks.iter().map(letter).collect()
+    }
+
+    /// For each fold: strength `ζ̂/δ`, and the angle available on the lit side of both its rays.
+    pub fn folds(&self, axis_gap: f64) -> Vec<(f64, f64)> {
+        let mut found = Vec::new();
+        for (k, landmark) in self.landmarks.iter().enumerate() {
+            let Landmark::Fold(fold) = landmark else { continue };
+            let room = |other: &Landmark| match other {
+                Landmark::Axial => (fold.angle - self.rays.plane.axis_angle()).abs(),
+                Landmark::Axis(axis) => (fold.angle - axis).abs() - axis_gap,
+                Landmark::Fold(next) => 0.5 * (fold.angle - next.angle).abs(),
+                Landmark::End(node) => (fold.angle - node.angle).abs(),
+                Landmark::Cut(_) => f64::INFINITY,
+            };
+            let available = room(&self.landmarks[k - 1]).min(room(&self.landmarks[k + 1]));
+            found.push((fold.strength(&self.rays.plane).unwrap_or(1.0), available));
+        }
+        found
+    }
+
+    /// Launch point `sin α` of a landmark.
+    pub(crate) fn launch(&self, landmark: &Landmark) -> Option<f64> {
+        match landmark {
+            Landmark::Axial => Some(0.0),
+            Landmark::Fold(fold) => Some(fold.alpha.sin()),
+            Landmark::End(node) => Some(node.alpha.sin()),
+            Landmark::Axis(axis) => self.crossing(*axis),
+            Landmark::Cut(alpha) => Some(alpha.sin()),
+        }
+    }
+
+    /// Where the first scan crosses an axis.
+    fn crossing(&self, axis: f64) -> Option<f64> {
+        let crosses = |w: &&[Node]| (w[0].angle - axis) * (w[1].angle - axis) <= 0.0;
+        self.rays.nodes.windows(2).skip(1).find(crosses).map(|w| w[0].alpha.sin())
+    }
+
+    /// The folds and their numbers among the landmarks.
+    pub(crate) fn numbered_folds(&self) -> impl Iterator<Item = (usize, &Fold)> {
+        self.landmarks.iter().enumerate().filter_map(|(k, landmark)| match landmark {
+            Landmark::Fold(fold) => Some((k, fold)),
+            _ => None,
+        })
+    }
+}

@@ -1,0 +1,317 @@
+//! A fold caustic on a plane: where two rays of one order become one.
+//!
+//! With the angle `δ` from the caustic (positive on the lit side) and `q = √δ`, the two rays are one
+//! analytic function of `q`, taken at `+q` and `-q`; on the dark side `q` is imaginary and the rays
+//! are complex. So the sums and differences that the uniform Airy formula needs (Chester, Friedman &
+//! Ursell 1957; Berry 1966) are analytic in `δ` through the caustic:
+//! - mean path `(W₊ + W₋)/2` and `ζ̂` with `ζ̂^{3/2} = ¾ (W₊ - W₋)`,
+//! - `g₀ = (A₊ + A₋) ζ̂^{1/4}` and `g₁ = (A₊ - A₋) ζ̂^{-1/4}`, `A = T / √|spread|`.
+//!
+//! `+` is the ray with the larger path; it has passed one focal line more.
+
+use super::scattering_plane::{Node, ScatteringPlane};
+use crate::math::chebyshev::{self, Chebyshev};
+use crate::math::scalar::Scalar;
+use crate::shape::Silhouette;
+use crate::trace::Exit;
+use num_complex::Complex64;
+
+/// Channels of a pair: mean path, ζ̂, g₀ and g₁ (real and imaginary parts of S1 … S4).
+pub const PAIR_CHANNELS: usize = 18;
+
+/// A fold on a plane.
+#[derive(Clone, Debug)]
+pub struct Fold {
+    pub alpha: f64,
+    /// Unwrapped angle of the caustic.
+    pub angle: f64,
+    /// +1 when larger angles are lit, -1 when smaller ones are.
+    pub lit: f64,
+    /// Sum of the two rays' focal lines (odd).
+    pub focal_lines: u32,
+    /// +1 when the ray of larger path starts at larger α.
+    pub larger: f64,
+    place: [f64; 2],
+    /// Change of launch point per √δ of the ray of larger path.
+    tangent: [f64; 2],
+}
+
+/// Growth of `|g|²` over its largest lit value that tells of a singularity nearby.
+const RUNAWAY: f64 = 30.0;
+
+/// The two rays of a fold at one δ.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    larger: [f64; 2],
+    smaller: [f64; 2],
+}
+
+impl Fold {
+    /// Refine a fold between two neighbouring nodes whose spreads have opposite signs.
+    pub fn between(
+        plane: &ScatteringPlane,
+        silhouette: &Silhouette,
+        before: &Node,
+        after: &Node,
+    ) -> Option<Self> {
+        let (mut low, mut high) = (*before, *after);
+        let mut middle = low;
+        for _ in 0..60 {
+            // Regula falsi towards the root of the spread, halving when it stalls.
+            let (a, b) = (low.exit.spread(), high.exit.spread());
+            let share = (a / (a - b)).clamp(0.05, 0.95);
+            let alpha = low.alpha + share * (high.alpha - low.alpha);
+            let psi = low.psi + share * (high.psi - low.psi);
+            middle = plane.node(silhouette, alpha, psi, low.angle)?;
+            if middle.exit.spread() * a > 0.0 {
+                low = middle
+            } else {
+                high = middle
+            }
+            if (high.alpha - low.alpha).abs() < 1e-11 || middle.exit.spread().abs() < 1e-13 {
+                break;
+            }
+        }
+        Self::at(plane, &middle, before, after)
+    }
+
+    /// Local geometry: how the angle bends along the plane at the fold.
+    fn at(plane: &ScatteringPlane, fold: &Node, before: &Node, after: &Node) -> Option<Self> {
+        let lit = (0.5 * (before.angle + after.angle) - fold.angle).signum();
+        // The kernel of the map of directions: ds(kernel) = 0.
+        let (_, growing) = plane.frame(fold.angle);
+        let across = plane.across();
+        let row = |axis: crate::math::vec3::Vec3<f64>| {
+            [fold.exit.ds[0].dot(axis), fold.exit.ds[1].dot(axis)]
+        };
+        let (g, a) = (row(growing), row(across));
+        let larger_row = if g[0].hypot(g[1]) > a[0].hypot(a[1]) { g } else { a };
+        let norm = larger_row[0].hypot(larger_row[1]);
+        let mut kernel = [-larger_row[1] / norm, larger_row[0] / norm];
+        let outward = [after.place[0] - before.place[0], after.place[1] - before.place[1]];
+        if kernel[0] * outward[0] + kernel[1] * outward[1] < 0.0 {
+            kernel = [-kernel[0], -kernel[1]];
+        }
+        // Angle along the kernel's line, to second order, from two probes.
+        let h = 1e-3;
+        let probe = |t: f64| {
+            let place = [fold.place[0] + t * kernel[0], fold.place[1] + t * kernel[1]];
+            plane.exit(place).map(|e| e.direction.dot(growing))
+        };
+        let bend = (probe(h)? + probe(-h)?) / (h * h);
+        let step = (2.0 / bend.abs()).sqrt();
+        let mut fold = Self {
+            alpha: fold.alpha,
+            angle: fold.angle,
+            lit,
+            focal_lines: 0,
+            larger: 1.0,
+            place: fold.place,
+            tangent: [kernel[0] * step, kernel[1] * step],
+        };
+        // Which of the two has the larger path, and their focal lines, from a pair nearby.
+        let delta = 1e-3;
+        let pair = fold.pair_near(plane, delta, delta.sqrt())?;
+        let (one, two) = (plane.exit(pair.larger)?, plane.exit(pair.smaller)?);
+        fold.focal_lines = one.focal_lines + two.focal_lines;
+        if one.path < two.path {
+            fold.larger = -1.0;
+            fold.tangent = [-fold.tangent[0], -fold.tangent[1]];
+        }
+        (fold.focal_lines % 2 == 1).then_some(fold)
+    }
+
+    /// The pair at a small δ > 0 from the local expansion.
+    fn pair_near(&self, plane: &ScatteringPlane, delta: f64, q: f64) -> Option<Pair> {
+        let angle = self.angle + self.lit * delta;
+        let start = |sign: f64| {
+            [self.place[0] + sign * q * self.tangent[0], self.place[1] + sign * q * self.tangent[1]]
+        };
+        let (larger, _) = plane.aim(angle, start(1.0))?;
+        let (smaller, _) = plane.aim(angle, start(-1.0))?;
+        let apart = (larger[0] - smaller[0]).hypot(larger[1] - smaller[1]);
+        (apart > 0.2 * q * self.tangent[0].hypot(self.tangent[1]))
+            .then_some(Pair { larger, smaller })
+    }
+
+    /// `ζ̂/δ` near the caustic: how fast the phase difference of the two rays grows.
+    pub fn strength(&self, plane: &ScatteringPlane) -> Option<f64> {
+        let delta = 1e-3;
+        let pair = self.pair_near(plane, delta, delta.sqrt())?;
+        let difference = plane.exit(pair.larger)?.path - plane.exit(pair.smaller)?.path;
+        Some((0.75 * difference).abs().powf(2.0 / 3.0) / delta)
+    }
+
+    /// Sample the pair's analytic functions on `[-dark, reach]` (radians from the caustic).
+    /// `None` where a ray cannot be found.
+    pub fn sample(
+        &self,
+        plane: &ScatteringPlane,
+        dark: f64,
+        reach: f64,
+        count: usize,
+    ) -> Option<Chebyshev<PAIR_CHANNELS>> {
+        let deltas = chebyshev::points(count, -dark, reach);
+        let mut values = vec![[0.0; PAIR_CHANNELS]; count];
+        let first_lit = deltas.partition_point(|&d| d <= 0.0);
+        let mut path = RootPath::new(self.place, self.tangent);
+        for k in first_lit..count {
+            let q = deltas[k].sqrt();
+            values[k] = self.lit_values(plane, &mut path, deltas[k], q)?;
+        }
+        let size = |v: &[f64; PAIR_CHANNELS]| v[2..].iter().map(|g| g * g).sum::<f64>();
+        let largest = values[first_lit..].iter().map(size).fold(0.0, f64::max);
+        for k in (0..first_lit).rev() {
+            values[k] = self.dark_values(plane, &mut path, deltas[k])?;
+            // Far behind a caustic near the rim the curved interface has poles: not that far.
+            if !size(&values[k]).is_finite() || size(&values[k]) > RUNAWAY * largest {
+                return None;
+            }
+            // Square roots of complex transfers may change sheet on the way: continuity decides.
+            if k + 1 < count {
+                let (known, next) = (values[k + 1], &mut values[k]);
+                let agreement: f64 = (2..PAIR_CHANNELS).map(|c| known[c] * next[c]).sum();
+                if agreement < 0.0 {
+                    next[2..].iter_mut().for_each(|g| *g = -*g);
+                }
+            }
+        }
+        Some(Chebyshev::fit(&values, -dark, reach))
+    }
+
+    fn lit_values(
+        &self,
+        plane: &ScatteringPlane,
+        path: &mut RootPath,
+        delta: f64,
+        q: f64,
+    ) -> Option<[f64; PAIR_CHANNELS]> {
+        let angle = self.angle + self.lit * delta;
+        let (p1, e1) = plane.aim(angle, path.guess(q))?;
+        path.add(q, p1);
+        let (p2, e2) = plane.aim(angle, path.guess(-q))?;
+        path.add(-q, p2);
+        let difference = e1.path - e2.path;
+        if difference.is_nan() || difference <= 0.0 {
+            return None;
+        }
+        let z = (0.75 * difference / (q * q * q)).powf(2.0 / 3.0);
+        let q = Complex64::new(q, 0.0);
+        Some(self.channels(plane, angle, &e1, &e2, q, z, 0.5 * (e1.path + e2.path)))
+    }
+
+    fn dark_values(
+        &self,
+        plane: &ScatteringPlane,
+        path: &mut RootPath,
+        delta: f64,
+    ) -> Option<[f64; PAIR_CHANNELS]> {
+        let angle = self.angle + self.lit * delta;
+        let q = Complex64::new(0.0, (-delta).sqrt());
+        let (p1, e1) = plane.aim(angle, path.guess_complex(q))?;
+        path.add_imaginary(q.im, p1);
+        let e2: Exit<Complex64> = plane.exit([p1[0].conj(), p1[1].conj()])?;
+        // (W₊ - W₋)/q³ is real and positive
+        let ratio = (e1.path - e2.path) / (q * q * q);
+        if ratio.is_nan() || ratio.re <= 0.0 || ratio.im.abs() > 1e-6 * ratio.re {
+            return None;
+        }
+        let z = (0.75 * ratio.re).powf(2.0 / 3.0);
+        let mean = 0.5 * (e1.path + e2.path).re;
+        Some(self.channels(plane, angle, &e1, &e2, q, z, mean))
+    }
+
+    /// Mean path, ζ̂, g₀ and g₁ of two rays at `±q`; `z = ζ̂/δ`.
+    #[allow(clippy::too_many_arguments)] // one formula, one place
+    fn channels<T: Scalar>(
+        &self,
+        plane: &ScatteringPlane,
+        angle: f64,
+        e1: &Exit<T>,
+        e2: &Exit<T>,
+        q: Complex64,
+        z: f64,
+        mean: f64,
+    ) -> [f64; PAIR_CHANNELS] {
+        // spread/q is analytic and of one sign at ±q; its root is the principal one
+        let sign = (e1.spread().complex() / q).re.signum();
+        let weight = |e: &Exit<T>, q: Complex64| 1.0 / (e.spread().complex() / q * sign).sqrt();
+        let t1 = plane.transfer(e1, angle) * weight(e1, q);
+        let t2 = plane.transfer(e2, angle) * weight(e2, -q);
+        let quarter = z.powf(0.25);
+        let mut out = [0.0; PAIR_CHANNELS];
+        out[0] = mean;
+        out[1] = z * (q * q).re;
+        let pairs = [(t1.s1, t2.s1), (t1.s2, t2.s2), (t1.s3, t2.s3), (t1.s4, t2.s4)];
+        for (k, (a, b)) in pairs.into_iter().enumerate() {
+            let g0 = (a + b) * quarter;
+            let g1 = (a - b) / q / quarter;
+            out[2 + 2 * k] = g0.re;
+            out[3 + 2 * k] = g0.im;
+            out[10 + 2 * k] = g1.re;
+            out[11 + 2 * k] = g1.im;
+        }
+        out
+    }
+}
+
+/// Launch points as a function of `q`, extrapolated from those already found.
+struct RootPath {
+    centre: [f64; 2],
+    pub tangent: [f64; 2],
+    known: Vec<(f64, [f64; 2])>,
+    imaginary: Vec<(f64, [Complex64; 2])>,
+}
+
+/// Points used for extrapolation.
+const STENCIL: usize = 4;
+
+impl RootPath {
+    fn new(centre: [f64; 2], tangent: [f64; 2]) -> Self {
+        Self { centre, tangent, known: vec![(0.0, centre)], imaginary: Vec::new() }
+    }
+
+    fn add(&mut self, q: f64, place: [f64; 2]) {
+        self.known.push((q, place));
+    }
+
+    fn add_imaginary(&mut self, q: f64, place: [Complex64; 2]) {
+        self.imaginary.push((q, place));
+    }
+
+    /// Guess at real `q`: the expansion at the fold, then the polynomial through the points nearest.
+    fn guess(&self, q: f64) -> [f64; 2] {
+        let mut near: Vec<_> = self.known.clone();
+        near.sort_by(|a, b| (a.0 - q).abs().total_cmp(&(b.0 - q).abs()));
+        near.truncate(STENCIL);
+        if near.len() < 3 {
+            return [0, 1].map(|k| self.centre[k] + q * self.tangent[k]);
+        }
+        [0, 1].map(|k| {
+            let points: Vec<(f64, f64)> = near.iter().map(|(x, p)| (*x, p[k])).collect();
+            crate::math::interpolate::lagrange(&points, q)
+        })
+    }
+
+    /// Guess at imaginary `q`: even and odd parts of the path, continued from those found.
+    fn guess_complex(&self, q: Complex64) -> [Complex64; 2] {
+        if self.imaginary.len() >= 3 {
+            let last = &self.imaginary[self.imaginary.len() - 3..];
+            return [0, 1].map(|k| {
+                let part = |f: fn(Complex64) -> f64| {
+                    let points: Vec<(f64, f64)> = last.iter().map(|(x, p)| (*x, f(p[k]))).collect();
+                    crate::math::interpolate::lagrange(&points, q.im)
+                };
+                Complex64::new(part(|z| z.re), part(|z| z.im))
+            });
+        }
+        // A polynomial in q through the real points nearest to the fold, taken at imaginary q.
+        let mut near = self.known.clone();
+        near.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        near.truncate(5);
+        [0, 1].map(|k| {
+            let points: Vec<(f64, f64)> = near.iter().map(|(x, p)| (*x, p[k])).collect();
+            crate::math::interpolate::lagrange_complex(&points, q)
+        })
+    }
+}

@@ -1,0 +1,8 @@
+//! Rays of one order that leave in one scattering plane: exit angle by launch point, its landmarks, and the
+//! folds where it turns back.
+
+pub mod curve;
+pub mod fold;
+pub mod landmark;
+pub mod scan;
+pub mod scattering_plane;

@@ -1,0 +1,147 @@
+//! Searching rays along a curve: by launch coordinate, by angle, at the edges of its segments.
+
+use super::scattering_plane::{GRAZING, Node, ScatteringPlane};
+use crate::shape::Silhouette;
+use std::f64::consts::FRAC_PI_2;
+
+/// Ends of plain segments are bisected to this in α.
+const END_TOLERANCE: f64 = 1e-9;
+/// Rays of a scan without which no landmark can be told.
+const FEWEST: usize = 8;
+
+/// Where a plain segment begins or ends.
+#[derive(Clone, Debug)]
+pub(crate) enum Edge {
+    Alpha(f64),
+    Last(Box<Node>),
+    Angle { angle: f64, near: f64 },
+    Axis { axis: f64, gap: f64 },
+}
+
+/// How a scattering plane is scanned.
+#[derive(Clone, Copy, Debug)]
+pub struct Scan {
+    /// Launch points from the axial ray to the rim.
+    pub nodes: usize,
+    /// Angle about later crossings of the axis that is left out, radians.
+    pub axis_gap: f64,
+    /// Launch coordinate α up to which landmarks are looked for.
+    pub limit: f64,
+}
+
+/// The rays of a scan, and the search for others between them.
+pub(crate) struct ScannedRays<'a> {
+    pub plane: ScatteringPlane<'a>,
+    pub silhouette: &'a Silhouette<'a>,
+    pub nodes: Vec<Node>,
+}
+
+impl<'a> ScannedRays<'a> {
+    /// `None` where too few rays leave.
+    pub(crate) fn new(
+        plane: ScatteringPlane<'a>,
+        silhouette: &'a Silhouette<'a>,
+        scan: Scan,
+    ) -> Option<Self> {
+        let found = plane.scan(silhouette, scan.nodes, scan.axis_gap);
+        let nodes: Vec<Node> = found.iter().flatten().copied().collect();
+        (nodes.len() >= FEWEST).then_some(Self { plane, silhouette, nodes })
+    }
+
+    /// The last ray that still leaves, within a step beyond a node. Rays farther out may leave
+    /// again, but total reflection parts them from this stretch.
+    pub(crate) fn end_after(&self, last: Node, step: f64) -> Node {
+        let rim = FRAC_PI_2 - GRAZING;
+        let (mut good, mut bad) = (last, (last.alpha + 1.01 * step).min(rim));
+        if let Some(node) = self.plane.node(self.silhouette, bad, last.psi, last.angle) {
+            return node;
+        }
+        while bad - good.alpha > END_TOLERANCE {
+            let middle = 0.5 * (bad + good.alpha);
+            match self.plane.node(self.silhouette, middle, good.psi, good.angle) {
+                Some(node) => good = node,
+                None => bad = middle,
+            }
+        }
+        good
+    }
+
+    /// A ray at `α`, its neighbours in the scan giving the guess.
+    pub(crate) fn interpolated(&self, alpha: f64) -> Option<Node> {
+        let nodes = &self.nodes;
+        let k = nodes.partition_point(|n| n.alpha < alpha).clamp(1, nodes.len() - 1);
+        let (a, b) = (&nodes[k - 1], &nodes[k]);
+        let share = (alpha - a.alpha) / (b.alpha - a.alpha);
+        let angle = a.angle + share * (b.angle - a.angle);
+        // next to total reflection the azimuth runs like a square root: other guesses may do better
+        [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter().find_map(|s| {
+            self.plane.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
+        })
+    }
+
+    /// The ray at an edge of a plain segment.
+    pub(crate) fn find(&self, edge: Edge, is_start: bool) -> Option<Node> {
+        match edge {
+            Edge::Alpha(alpha) => self.interpolated(alpha),
+            Edge::Last(node) => Some(*node),
+            Edge::Angle { angle, near } => self.at_angle(angle, near, is_start),
+            Edge::Axis { axis, gap } => {
+                // beyond the crossing where a segment starts, before it where one ends
+                let k = self.nodes.windows(2).position(|w| {
+                    (w[0].angle - axis) * (w[1].angle - axis) <= 0.0 && w[0].alpha > 0.0
+                })?;
+                let side = if is_start { self.nodes[k + 1] } else { self.nodes[k] };
+                let angle = axis + gap * (side.angle - axis).signum();
+                self.at_angle(angle, side.alpha, is_start)
+            }
+        }
+    }
+
+    /// The ray of a given angle, beyond (`is_start`) or before `α = near`.
+    pub(crate) fn at_angle(&self, angle: f64, near: f64, is_start: bool) -> Option<Node> {
+        let nodes = &self.nodes;
+        let window = |w: &[Node]| (w[0].angle - angle) * (w[1].angle - angle) <= 0.0;
+        let bracket = if is_start {
+            nodes.windows(2).find(|w| w[1].alpha >= near && window(w))
+        } else {
+            nodes.windows(2).rev().find(|w| w[0].alpha <= near && window(w))
+        };
+        let (mut a, mut b) = match bracket {
+            Some(w) => (w[0], w[1]),
+            // between the last node of the scan and the edge of the gap, extrapolate
+            None => return self.beyond_scan(angle, near),
+        };
+        for _ in 0..40 {
+            let share = ((angle - a.angle) / (b.angle - a.angle)).clamp(0.02, 0.98);
+            let (alpha, psi) =
+                (a.alpha + share * (b.alpha - a.alpha), a.psi + share * (b.psi - a.psi));
+            let node = self.plane.node(self.silhouette, alpha, psi, angle)?;
+            if (node.angle - angle).abs() < 1e-13 || b.alpha - a.alpha < 1e-14 {
+                return Some(Node { angle, ..node });
+            }
+            if (node.angle - angle) * (a.angle - angle) > 0.0 { a = node } else { b = node }
+        }
+        let node = self.plane.node(self.silhouette, 0.5 * (a.alpha + b.alpha), a.psi, angle)?;
+        Some(Node { angle, ..node })
+    }
+
+    /// A ray just outside the scanned stretch next to `α = near`, by Newton's method on the angle.
+    pub(crate) fn beyond_scan(&self, angle: f64, near: f64) -> Option<Node> {
+        let nearest = |n: &&Node| (n.alpha - near).abs();
+        let mut node = *self.nodes.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
+        let h = 1e-5;
+        for _ in 0..20 {
+            let ahead = self.plane.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
+            let rate = (ahead.angle - node.angle) / h;
+            let step = (angle - node.angle) / rate;
+            if step.is_nan() || step.abs() >= 0.3 {
+                return None;
+            }
+            node = self.plane.node(self.silhouette, node.alpha + step, node.psi, angle)?;
+            if (node.angle - angle).abs() < 1e-12 {
+                return Some(Node { angle, ..node });
+            }
+        }
+        None
+    }
+}

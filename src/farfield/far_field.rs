@@ -1,0 +1,196 @@
+//! The far field of one wavelength, asked for columns of a table or for single directions.
+
+use super::azimuth::plane_set::PlaneSet;
+use super::column::Column;
+use super::cross_check;
+use super::direction::Direction;
+use super::fallback::FallbackField;
+use super::forward::diffraction::ForwardDiffraction;
+use super::forward::wave::ForwardWave;
+use super::partial_waves::PartialWaves;
+use super::patches::collecting_sphere::CollectingSphere;
+use super::patches::interference::{Interference, PathInterpolation};
+use super::patches::sheets;
+use crate::farfield::settings::FarFieldSettings;
+use crate::optics::AmplitudeMatrix;
+use crate::shape::Shape;
+use crate::trace::Tracer;
+use std::f64::consts::{PI, TAU};
+
+/// The far field of one wavelength, ready to be asked for columns or single directions.
+pub struct FarField<'a> {
+    pub(crate) source: Source,
+    silhouette: ForwardDiffraction,
+    pub(crate) size_parameter: f64,
+    _shape: &'a Shape,
+}
+
+/// How amplitudes are found.
+pub(crate) enum Source {
+    Patches(CollectingSphere, Interference),
+    /// Scattering planes, and something else for the orders whose planes do not correspond.
+    Planes(Box<PlaneSet>, FallbackField),
+}
+
+impl<'a> FarField<'a> {
+    /// Patches on the collecting sphere.
+    pub fn patches(shape: &'a Shape, sheets: Vec<sheets::Sheet>, size_parameter: f64) -> Self {
+        let interpolation = PathInterpolation::Gradient;
+        let largest_jacobian = f64::INFINITY;
+        let interference = Interference { size_parameter, interpolation, largest_jacobian };
+        Self {
+            source: Source::Patches(CollectingSphere::new(sheets), interference),
+            silhouette: ForwardDiffraction::new(shape),
+            size_parameter,
+            _shape: shape,
+        }
+    }
+
+    /// Scattering planes with uniform Airy functions at their folds.
+    pub fn meridians(tracer: &Tracer<'a>, settings: &FarFieldSettings) -> Self {
+        let silhouette = ForwardDiffraction::new(tracer.shape());
+        let (waves, orders) = PartialWaves::of_small_particles(tracer, settings);
+        let settings = FarFieldSettings { orders: &orders, ..settings.clone() };
+        let mut planes = PlaneSet::new(tracer, &settings, &silhouette);
+        for order in cross_check::doubtful_orders(&planes, tracer, &settings) {
+            planes.give_up(order);
+        }
+        let fallback = FallbackField::new(tracer, waves, &planes.irregular, &settings);
+        Self {
+            source: Source::Planes(Box::new(planes), fallback),
+            silhouette,
+            size_parameter: settings.size_parameter,
+            _shape: tracer.shape(),
+        }
+    }
+
+    /// Orders that the method could not represent.
+    pub fn irregular(&self) -> &[u32] {
+        match &self.source {
+            Source::Patches(..) => &[],
+            Source::Planes(planes, _) => &planes.irregular,
+        }
+    }
+
+    /// The wave that goes straight on.
+    pub fn forward_wave(&self) -> ForwardWave<'_> {
+        let edge = match &self.source {
+            Source::Patches(..) => None,
+            Source::Planes(planes, _) => planes.edge(),
+        };
+        ForwardWave { shadow: &self.silhouette, edge, size_parameter: self.size_parameter }
+    }
+
+    /// The silhouette and its diffraction.
+    pub fn silhouette(&self) -> &ForwardDiffraction {
+        &self.silhouette
+    }
+
+    /// Amplitudes straight forward of rays that a plane stands for and of the edge wave, where
+    /// diffraction and external reflection are joined.
+    pub fn straight_forward(&self) -> Option<AmplitudeMatrix> {
+        let Source::Planes(planes, _) = &self.source else { return None };
+        planes.edge()?;
+        let rays = planes.columns(&[0.0], &[0.0]).swap_remove(0)[0];
+        Some(rays + self.forward_wave().peak(&Direction::new(0.0, 0.0)))
+    }
+
+    /// All scattering angles at each of some azimuths in [0, π], without forward diffraction.
+    pub fn columns(&self, theta: &[f64], azimuths: &[f64], incoherent: bool) -> Vec<Column> {
+        match &self.source {
+            Source::Patches(sphere, interference) => azimuths
+                .iter()
+                .map(|&phi| patch_column(sphere, interference, theta, phi, incoherent))
+                .collect(),
+            Source::Planes(planes, fallback) => {
+                let caustic_order = planes.caustic_order(theta);
+                let columns = planes.columns(theta, azimuths).into_iter().zip(azimuths);
+                let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
+                    fallback.add(theta, phi, &mut amplitude);
+                    Column {
+                        amplitude,
+                        incoherent: Vec::new(),
+                        rays: Vec::new(),
+                        caustic_order: caustic_order.clone(),
+                    }
+                };
+                columns.map(finish).collect()
+            }
+        }
+    }
+
+    /// Amplitudes in single directions `(θ, φ)`, with forward diffraction where asked.
+    pub fn scatter(&self, directions: &[(f64, f64)], diffraction: bool) -> Vec<AmplitudeMatrix> {
+        let mut amplitudes = match &self.source {
+            Source::Patches(sphere, interference) => directions
+                .iter()
+                .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
+                .collect(),
+            Source::Planes(planes, fallback) => scatter_by_columns(directions, |theta, phi| {
+                let mut column = planes.columns(theta, &[phi]).swap_remove(0);
+                fallback.add(theta, phi, &mut column);
+                column
+            }),
+        };
+        if diffraction {
+            let forward = self.forward_wave();
+            for (amplitude, &(theta, phi)) in amplitudes.iter_mut().zip(directions) {
+                *amplitude += forward.beside_planes(&Direction::new(theta, phi));
+            }
+        }
+        amplitudes
+    }
+}
+
+/// A column collected patch by patch.
+fn patch_column(
+    sphere: &CollectingSphere,
+    interference: &Interference,
+    theta: &[f64],
+    phi: f64,
+    incoherent: bool,
+) -> Column {
+    let mut column = Column {
+        amplitude: Vec::with_capacity(theta.len()),
+        incoherent: Vec::new(),
+        rays: Vec::with_capacity(theta.len()),
+        caustic_order: Vec::new(),
+    };
+    for &t in theta {
+        let found = interference.collect(sphere, &Direction::new(t, phi));
+        column.amplitude.push(found.amplitude);
+        if incoherent {
+            column.incoherent.push(found.incoherent);
+        }
+        column.rays.push(found.rays_by_order);
+    }
+    column
+}
+
+/// Directions grouped into columns of equal azimuth in [0, π], each computed in ascending θ.
+fn scatter_by_columns(
+    directions: &[(f64, f64)],
+    column: impl Fn(&[f64], f64) -> Vec<AmplitudeMatrix>,
+) -> Vec<AmplitudeMatrix> {
+    let folded = |phi: f64| {
+        let turned = phi.rem_euclid(TAU);
+        if turned > PI { (TAU - turned, true) } else { (turned, false) }
+    };
+    let mut order: Vec<usize> = (0..directions.len()).collect();
+    let key = |&i: &usize| (folded(directions[i].1).0, directions[i].0);
+    order.sort_by(|a, b| {
+        let (a, b) = (key(a), key(b));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    let mut amplitudes = vec![AmplitudeMatrix::default(); directions.len()];
+    for group in order.chunk_by(|a, b| key(a).0 == key(b).0) {
+        let theta: Vec<f64> = group.iter().map(|&i| directions[i].0).collect();
+        for (&i, mut amplitude) in group.iter().zip(column(&theta, key(&group[0]).0)) {
+            if folded(directions[i].1).1 {
+                (amplitude.s3, amplitude.s4) = (-amplitude.s3, -amplitude.s4);
+            }
+            amplitudes[i] = amplitude;
+        }
+    }
+    amplitudes
+}

@@ -1,0 +1,107 @@
+//! The integrand of a rim wave at its samples, and its sums against the waves of a direction.
+
+use crate::math::fused::multiply_add;
+use crate::math::phase::sin_cos_turns_with;
+use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
+use num_complex::Complex64;
+use std::f64::consts::TAU;
+
+/// Sums of the four elements against the reference path, and of the same times the impact.
+pub(crate) type Sums = [[Complex64; 4]; 2];
+
+/// Samples of the integrand: impacts, paths in units of the radius, four complex elements.
+pub(crate) struct Integrand {
+    impact: Vec<f64>,
+    path: Vec<f64>,
+    parts: [Vec<f64>; 8],
+}
+
+impl Integrand {
+    pub(crate) fn with_capacity(count: usize) -> Self {
+        let column = || Vec::with_capacity(count);
+        Self { impact: column(), path: column(), parts: std::array::from_fn(|_| column()) }
+    }
+
+    pub(crate) fn push(&mut self, impact: f64, path: f64, elements: [Complex64; 4]) {
+        self.impact.push(impact);
+        self.path.push(path);
+        for (k, e) in elements.into_iter().enumerate() {
+            self.parts[2 * k].push(e.re);
+            self.parts[2 * k + 1].push(e.im);
+        }
+    }
+
+    /// Impact, path, and the elements S1 and S2 of all samples.
+    pub(crate) fn samples(&self) -> impl Iterator<Item = (f64, f64, [Complex64; 2])> {
+        let element =
+            |e: usize, k: usize| Complex64::new(self.parts[2 * e][k], self.parts[2 * e + 1][k]);
+        (0..self.impact.len())
+            .map(move |k| (self.impact[k], self.path[k], [element(0, k), element(1, k)]))
+    }
+
+    /// Samples of no weight, up to a whole number of lanes.
+    pub(crate) fn fill_lanes(&mut self) {
+        while !self.impact.len().is_multiple_of(LANES) {
+            self.push(0.0, 0.0, [Complex64::default(); 4]);
+        }
+    }
+
+    /// `Σ F exp(ix(L - βϑ - W))`, and the same times β.
+    pub(crate) fn sum(&self, angle: f64, reference: f64, x: f64) -> Sums {
+        let found = sum(self, angle, reference, x);
+        let at = |k: usize| Complex64::new(found[k], found[k + 1]);
+        [std::array::from_fn(|e| at(2 * e)), std::array::from_fn(|e| at(8 + 2 * e))]
+    }
+}
+
+/// Samples handled side by side.
+const LANES: usize = 8;
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
+fn sum(integrand: &Integrand, angle: f64, reference: f64, x: f64) -> [f64; 16] {
+    if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
+        sum_with::<true>(integrand, angle, reference, x)
+    } else {
+        sum_with::<false>(integrand, angle, reference, x)
+    }
+}
+
+#[inline(always)]
+fn sum_with<const FMA: bool>(
+    integrand: &Integrand,
+    angle: f64,
+    reference: f64,
+    x: f64,
+) -> [f64; 16] {
+    let per_turn = x / TAU;
+    let mut sums = [[0.0; LANES]; 16];
+    let impacts: &[[f64; LANES]] = integrand.impact.as_chunks().0;
+    let paths: &[[f64; LANES]] = integrand.path.as_chunks().0;
+    let parts: [&[[f64; LANES]]; 8] = std::array::from_fn(|c| integrand.parts[c].as_chunks().0);
+    for (block, (impact, path)) in impacts.iter().zip(paths).enumerate() {
+        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let turns = per_turn * (path[k] - impact[k] * angle - reference);
+            (sin[k], cos[k]) = sin_cos_turns_with::<FMA>(turns);
+        }
+        for element in 0..4 {
+            let (re, im) = (&parts[2 * element][block], &parts[2 * element + 1][block]);
+            for k in 0..LANES {
+                let a = multiply_add::<FMA>(re[k], cos[k], -im[k] * sin[k]);
+                let b = multiply_add::<FMA>(re[k], sin[k], im[k] * cos[k]);
+                sums[2 * element][k] += a;
+                sums[2 * element + 1][k] += b;
+                let sum = &mut sums[8 + 2 * element][k];
+                *sum = multiply_add::<FMA>(a, impact[k], *sum);
+                let sum = &mut sums[9 + 2 * element][k];
+                *sum = multiply_add::<FMA>(b, impact[k], *sum);
+            }
+        }
+    }
+    sums.map(|lanes| lanes.iter().sum())
+}

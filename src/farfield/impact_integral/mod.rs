@@ -1,0 +1,9 @@
+//! Integrals over the impact parameters of one scattering plane, where no formula for single rays holds: near
+//! grazing incidence, near total reflection, and about the axis.
+
+pub mod glory;
+pub mod integrand;
+pub mod near_critical;
+pub mod near_grazing;
+pub mod near_grazing_layout;
+pub mod rays;

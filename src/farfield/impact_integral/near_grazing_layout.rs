@@ -1,0 +1,310 @@
+//! Where the integral over rays near the rim takes over, and the angles at which its wave is known; the
+//! same for all planes of an order.
+
+use super::rays::{RAYS, Rays};
+use crate::farfield::branch::window::Window;
+use crate::farfield::deflection::curve::DeflectionCurve;
+use std::f64::consts::{PI, TAU};
+
+/// Where the integral takes over, and the knots of its wave; common to all planes of an order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NearGrazingLayout {
+    /// Launch points `sin α` at which the weight leaves 0 and reaches 1.
+    pub start: f64,
+    pub full: f64,
+    /// Launch point `sin α` of a sphere's bow.
+    pub bow: f64,
+    /// Knots between axes: angles from the anchor, and the slope of the reference path there relative
+    /// to its impact.
+    pub knots: Vec<Vec<[f64; 2]>>,
+    /// Degree of the polynomials through real rays.
+    degree: usize,
+    /// Share of the stretch from `start` to the rim that is left out before the last ray.
+    spare: f64,
+    /// Whether nothing depends on azimuth.
+    rotational: bool,
+}
+
+/// Lowest order served, and the same for deformed particles: there the secondary bow's wave changes
+/// too fast with azimuth to be interpolated, its penumbra from continued polynomials is not
+/// reciprocal, and two rays serve nearly as well.
+const FIRST_ORDER: u32 = 2;
+const FIRST_ORDER_DEFORMED: u32 = 4;
+/// Widths of the Airy function between the bow's ray and the start of the taper.
+const AIRY_WIDTHS: f64 = 5.0;
+/// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
+/// served is ten times as strong as the others.
+const FRESNEL_ZONES: f64 = 20.0;
+const FRESNEL_ZONES_HIGH: f64 = 10.0;
+/// Knots per period of the wave against its reference.
+const KNOTS_PER_PERIOD: f64 = 4.0;
+
+/// Impact of the ray of a sphere's bow of this order, if there is one.
+fn bow(index: f64, order: u32) -> Option<f64> {
+    let p = f64::from(order);
+    let square = 1.0 - (index * index - 1.0) / (p * p - 1.0);
+    (square > 0.0 && square < 1.0 && index > 1.05).then(|| square.sqrt())
+}
+
+/// Slope and third derivative of a sphere's deviation by impact.
+fn deviation_slope(index: f64, order: u32, b: f64) -> (f64, f64) {
+    let p = f64::from(order);
+    let (c, ct) = (1.0 - b * b, index * index - b * b);
+    (2.0 / c.sqrt() - 2.0 * p / ct.sqrt(), 2.0 * b / c.powf(1.5) - 2.0 * p * b / ct.powf(1.5))
+}
+
+/// Total deviation on a sphere.
+fn deviation(index: f64, order: u32, b: f64) -> f64 {
+    let p = f64::from(order);
+    (p - 1.0) * PI + 2.0 * b.asin() - 2.0 * p * (b / index).asin()
+}
+
+/// Start and end of the taper, and the bow's ray, for a particle like a sphere, deformed so much that rays of this order
+/// stray by `caustic_disorder`; rays in it keep farther than `axis_gap` from the axis. `None` where the
+/// integral would reach too far inside, or too little is left for the taper.
+pub fn taper(
+    index: f64,
+    order: u32,
+    size_parameter: f64,
+    caustic_disorder: f64,
+    axis_gap: f64,
+    rotational: bool,
+) -> Option<[f64; 3]> {
+    const DEEPEST: f64 = 0.3;
+    const FEWEST_WIDTHS: f64 = 2.0;
+    const FEWEST_ZONES: f64 = 5.0;
+    /// Distance from the axis at which rays are clear of it, in gaps.
+    const AXIS_GAPS: f64 = 1.25;
+    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
+    let b = bow(index, order).filter(|_| order >= first)?;
+    let (_, bend) = deviation_slope(index, order, b);
+    let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
+    let mut full = b - AIRY_WIDTHS * airy - caustic_disorder;
+    if rotational {
+        full = below_axis(index, order, full, AXIS_GAPS * axis_gap);
+    }
+    if full < DEEPEST {
+        return None;
+    }
+    let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
+    let zones = if order <= 3 { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
+    let mut start = (full - zones * zone(full)).max(0.5 * full);
+    if !rotational {
+        start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
+        full = full.max(start + FEWEST_ZONES * zone(full));
+    }
+    let room = full - start > 0.99 * FEWEST_ZONES * zone(full) || !rotational;
+    let serves = room && full < b - FEWEST_WIDTHS * airy;
+    serves.then_some([start, full, b])
+}
+
+/// The impact `b`, or the next one below it where a sphere's rays keep this far from the axis.
+fn below_axis(index: f64, order: u32, b: f64, gap: f64) -> f64 {
+    const STEP: f64 = 0.002;
+    let near = |b: &f64| from_axis(index, order, *b) < gap;
+    (0..).map(|k| b - STEP * f64::from(k)).find(|b| *b < 0.0 || !near(b)).unwrap_or(0.0)
+}
+
+/// Angle between the axis and a sphere's ray.
+fn from_axis(index: f64, order: u32, b: f64) -> f64 {
+    let angle = deviation(index, order, b);
+    (angle - (angle / PI).round() * PI).abs()
+}
+
+/// Least impact from which on, to the bow's ray, a sphere's rays keep this far from the axis.
+fn clear_of_axis(index: f64, order: u32, bow: f64, gap: f64) -> Option<f64> {
+    const STEPS: u32 = 200;
+    let steps = (0..STEPS).map(|k| bow * (1.0 - f64::from(k) / f64::from(STEPS)));
+    let clear: Vec<f64> = steps.take_while(|&b| from_axis(index, order, b) > gap).collect();
+    clear.last().copied()
+}
+
+impl NearGrazingLayout {
+    /// A layout without knots yet. Where nothing depends on azimuth, path and angles are analytic in
+    /// the launch point to the rim and beyond; else only nearly so, and low degrees must do.
+    pub fn new([start, full, bow]: [f64; 3], rotational: bool) -> Self {
+        let degree = if rotational { RAYS - 1 } else { 5 };
+        // the last rays meet the surface so flatly that their differentials lose digits, and on
+        // deformed particles path and angles have a part there that is odd in the grazing angle
+        let spare = if rotational { 0.002 } else { 0.02 };
+        Self { start, full, bow, knots: Vec::new(), degree, spare, rotational }
+    }
+
+    /// The same with twice the knots.
+    pub(crate) fn finer(&self) -> Self {
+        let twice = |run: &Vec<[f64; 2]>| {
+            let mut finer: Vec<[f64; 2]> = Vec::with_capacity(2 * run.len());
+            for &[angle, slope] in run {
+                if let Some(&[a, s]) = finer.last() {
+                    finer.push([0.5 * (a + angle), 0.5 * (s + slope)]);
+                }
+                finer.push([angle, slope]);
+            }
+            finer
+        };
+        Self { knots: self.knots.iter().map(twice).collect(), ..self.clone() }
+    }
+
+    /// Real rays of a plane from the start of the taper to the last that leaves.
+    pub(crate) fn rays(&self, curve: &DeflectionCurve) -> Option<Rays> {
+        let to = curve.last_ray().alpha.sin() - self.spare * (1.0 - self.start);
+        Rays::between(curve, [self.start, to], self.degree)
+    }
+
+    /// Weight of the integral for a launch point `sin α`.
+    pub fn weight(&self, sin: f64) -> f64 {
+        Window { start: self.start, full: self.full }.weight(sin)
+    }
+
+    /// Spread knots that serve all curves of an order: from the ray at `start` past the bow, as far as
+    /// its dark side reaches. `None` where they would reach the axis, where waves from all azimuths
+    /// meet.
+    pub fn spread_knots(
+        &mut self,
+        curves: &[&DeflectionCurve],
+        axis_gap: f64,
+        index: f64,
+        caustic_disorder: f64,
+        x: f64,
+    ) -> Option<()> {
+        const DARK_ZETA: f64 = 7.5;
+        const PENUMBRA: f64 = 8.0;
+        const LONGEST_DARK: f64 = 0.45;
+        const FARTHEST_PENUMBRA: f64 = 0.5;
+        if !self.rotational {
+            self.keeps_off_axis(curves, axis_gap)?;
+        }
+        let marks: Vec<Marks> =
+            curves.iter().map(|curve| Marks::of(curve, self)).collect::<Option<_>>()?;
+        let sense = marks[0].sense;
+        let least = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MAX, f64::min);
+        let most = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MIN, f64::max);
+        let order = curves.first()?.plane().order;
+        let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
+        // beyond the last ray its penumbra dies away with x^{1/3}
+        let penumbra = (PENUMBRA * x.cbrt().recip()).min(FARTHEST_PENUMBRA);
+        let start = least(|m| m.start);
+        let begin = start.min(least(|m| m.last) - penumbra);
+        let bow_at = most(|m| m.farthest);
+        let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
+        let spare = 0.1 * caustic_disorder + zone + x.powf(-2.0 / 3.0);
+        let stretch = [begin, start, bow_at, bow_at + dark];
+        let all = knots(stretch, sense, [self.start, self.bow], spare, x)?;
+        self.knots = if self.rotational {
+            between_axes(&all, marks[0].anchor, axis_gap)
+        } else {
+            vec![before_axis(all, &marks)]
+        };
+        self.knots.retain(|run| run.len() > 1);
+        (!self.knots.is_empty()).then_some(())
+    }
+
+    /// `None` where rays in the taper leave too near the axis.
+    fn keeps_off_axis(&self, curves: &[&DeflectionCurve], axis_gap: f64) -> Option<()> {
+        let clear = |curve: &&DeflectionCurve| {
+            let angle = curve.ray_at(self.start)?.angle;
+            ((angle - (angle / PI).round() * PI).abs() > 0.7 * axis_gap).then_some(())
+        };
+        curves.iter().try_for_each(clear)
+    }
+}
+
+/// The runs of knots between axes, each ending exactly this far from them: closer by, waves from all
+/// azimuths meet.
+fn between_axes(knots: &[[f64; 2]], anchor: f64, gap: f64) -> Vec<Vec<[f64; 2]>> {
+    let (first, last) = (knots[0][0], knots[knots.len() - 1][0]);
+    let (low, high) = (first.min(last), first.max(last));
+    let half_turn = |offset: f64| ((anchor + offset) / PI).floor() as i64;
+    let off = |knot: &[f64; 2], angle: f64| (knot[0] - angle).abs();
+    let nearest = |angle: f64| {
+        let knot = knots.iter().min_by(|a, b| off(a, angle).total_cmp(&off(b, angle)));
+        [angle, knot.map_or(0.0, |knot| knot[1])]
+    };
+    let run = |number: i64| {
+        let from = (PI * number as f64 + gap - anchor).max(low);
+        let to = (PI * (number + 1) as f64 - gap - anchor).min(high);
+        let [begin, end] = if first < last { [from, to] } else { [to, from] };
+        let inside = knots.iter().copied().filter(|knot| from < knot[0] && knot[0] < to);
+        let run = std::iter::once(nearest(begin)).chain(inside).chain([nearest(end)]).collect();
+        (from < to).then_some(run)
+    };
+    (half_turn(low)..=half_turn(high)).filter_map(run).collect()
+}
+
+/// The knots on the bow's side of the axis, on all planes.
+fn before_axis(mut knots: Vec<[f64; 2]>, marks: &[Marks]) -> Vec<[f64; 2]> {
+    const NEAREST_AXIS: f64 = 0.03;
+    for mark in marks {
+        let nearest = (mark.anchor / PI).round() * PI - mark.anchor;
+        knots.retain(|k| {
+            [nearest - PI, nearest, nearest + PI]
+                .iter()
+                .all(|axis| axis.signum() * k[0] < axis.abs() - NEAREST_AXIS)
+        });
+    }
+    knots
+}
+
+/// Angle over which the argument of a sphere's Airy function grows by 1.
+fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
+    let (p, n) = (f64::from(order).powi(2), index * index);
+    let h = (p - 1.0).powi(2) / p * ((p - n) / (n - 1.0).powi(3)).sqrt();
+    h.cbrt() * x.powf(-2.0 / 3.0)
+}
+
+/// Angles on one plane, from that of the anchor on, counted towards the bow.
+struct Marks {
+    /// Unwrapped angle of the anchor: where the integrand's phase stands still at the bow's impact.
+    anchor: f64,
+    /// Direction of growing impacts: that of unwrapped angles, or against it.
+    sense: f64,
+    /// The ray at the start of the taper, the farthest ray, the last ray.
+    start: f64,
+    farthest: f64,
+    last: f64,
+}
+
+impl Marks {
+    fn of(curve: &DeflectionCurve, layout: &NearGrazingLayout) -> Option<Self> {
+        let first = curve.ray_at(layout.start)?.angle;
+        let [farthest, last] = curve.reaches(layout.start, layout.full)?;
+        let sense = farthest.signum();
+        let anchor = layout.rays(curve)?.anchor(layout.bow).angle;
+        let start = sense * (first - anchor);
+        Some(Self {
+            anchor,
+            sense,
+            start,
+            farthest: start + sense * farthest,
+            last: start + sense * last,
+        })
+    }
+}
+
+/// Knots from `begin` to `end` (radians from the anchor, towards the bow), close enough for waves
+/// whose impact lies between that of the inner ray and the rim, give or take `spare`. The inner ray
+/// goes from `start_at` to the bow at `bow_at`, its impact from `start` to `bow`. `None` where that
+/// would be too many, as between angles that are not to be trusted.
+fn knots(
+    [begin, start_at, bow_at, end]: [f64; 4],
+    sense: f64,
+    [start, bow]: [f64; 2],
+    spare: f64,
+    x: f64,
+) -> Option<Vec<[f64; 2]>> {
+    const MOST: usize = 1500;
+    let mut at = begin;
+    let mut knots = Vec::new();
+    while knots.len() < MOST {
+        // towards the bow the inner ray's angle runs like a square
+        let share = ((at - start_at) / (bow_at - start_at)).clamp(0.0, 1.0);
+        let inner = bow - (bow - start) * (1.0 - share).sqrt();
+        let half_band = 0.5 * (1.0 - inner);
+        knots.push([sense * at, inner + half_band - bow]);
+        if at >= end {
+            return Some(knots);
+        }
+        at += TAU / (KNOTS_PER_PERIOD * x * (half_band + spare));
+    }
+    None
+}

@@ -1,0 +1,295 @@
+//! What the integral over rays near the rim needs along a plane, as polynomials in the launch
+//! point: path, impact, spreading, and how the ray meets the surface each time.
+//!
+//! Real rays give the polynomials; beyond the rim, where none leaves, they are continued by a few wave
+//! zones, and the coefficients of the curved interface ([`Grazing::whole`]) follow from them there.
+
+use super::integrand::Integrand;
+use crate::farfield::deflection::curve::DeflectionCurve;
+use crate::farfield::deflection::scattering_plane::Node;
+use crate::math::chebyshev::{self, Chebyshev};
+use crate::math::vec3::Vec3;
+use crate::optics::{Grazing, curved_from_inside};
+use crate::trace::Meeting;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// Real rays through which the polynomials pass.
+pub(crate) const RAYS: usize = 20;
+/// Wave zones `x^{-2/3}` beyond the last ray at which tunnelling has ended.
+pub(crate) const TUNNEL: f64 = 4.0;
+/// Samples of the integrand per period of its phase.
+const SAMPLES_PER_PERIOD: f64 = 1.8;
+
+/// What the integral needs along a plane, as polynomials in the launch point `sin α`.
+pub(crate) struct Rays {
+    channels: Vec<Chebyshev<1>>,
+    order: usize,
+    /// Launch points of the first and the last real ray.
+    from: f64,
+    to: f64,
+}
+
+/// Channels: impact, path L without the part outside, spreading, path inside, then three for each
+/// meeting with the surface, then the last turn of the frame.
+const IMPACT: usize = 0;
+const PATH: usize = 1;
+const SPREADING: usize = 2;
+const INSIDE: usize = 3;
+const MEETINGS: usize = 4;
+
+/// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
+/// which their phase stands still.
+pub(crate) struct Anchor {
+    pub angle: f64,
+    pub impact: f64,
+    pub path: f64,
+}
+
+/// What stands before the integral, `-i √(x/2π) e^{-iπm/2 ∓ iπ/4}` for `m` focal lines, where one ray
+/// leaves. Waves that pass the axis pass a focal line more or less there.
+pub(crate) struct Prefactor {
+    value: Complex64,
+    /// Unwrapped angle of the ray.
+    pub angle: f64,
+    /// Sign of its impact.
+    pub sense: f64,
+}
+
+impl Prefactor {
+    /// For the rays from one launch point to another nearby, without a fold between.
+    pub(crate) fn between(
+        curve: &DeflectionCurve,
+        [from, to]: [f64; 2],
+        size_parameter: f64,
+    ) -> Option<Self> {
+        let (first, ahead) = (curve.ray_at(from)?, curve.ray_at(to)?);
+        let impact = |node: &Node| node.exit.reference.dot(curve.plane().frame(node.angle).1);
+        let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
+        let focal_lines = f64::from(first.exit.focal_lines);
+        let phase = -FRAC_PI_2 * (1.0 + focal_lines) - FRAC_PI_4 * turn;
+        let value = Complex64::from_polar((size_parameter / TAU).sqrt(), phase);
+        Some(Self { value, angle: first.angle, sense: impact(&first).signum() })
+    }
+
+    /// The factor of waves that leave in another direction.
+    pub(crate) fn towards(&self, angle: f64) -> Complex64 {
+        self.after((angle / PI).floor() - (self.angle / PI).floor())
+    }
+
+    /// The factor at the axis `number · π`, half-way through its focal line.
+    pub(crate) fn at_axis(&self, number: f64) -> Complex64 {
+        self.after(number - 0.5 - (self.angle / PI).floor())
+    }
+
+    fn after(&self, crossings: f64) -> Complex64 {
+        self.value * Complex64::cis(FRAC_PI_2 * crossings * self.sense)
+    }
+}
+
+impl Rays {
+    /// The anchor for a launch point. It varies smoothly with azimuth, also where no real ray leaves.
+    pub(crate) fn anchor(&self, sin: f64) -> Anchor {
+        let ((path, path_rate), (impact, rate)) = (self.at(PATH, sin), self.at(IMPACT, sin));
+        let angle = path_rate / rate;
+        Anchor { angle, impact, path: path - impact * angle }
+    }
+
+    /// Trace real rays between two launch points.
+    pub(crate) fn between(
+        curve: &DeflectionCurve,
+        [from, to]: [f64; 2],
+        degree: usize,
+    ) -> Option<Self> {
+        let plane = curve.plane();
+        let order = plane.order as usize;
+        let points = chebyshev::points(RAYS, from, to);
+        let mut meetings: Vec<Meeting> = Vec::new();
+        let mut rows = Vec::with_capacity(RAYS);
+        for sin in points {
+            let node = curve.ray_at(sin)?;
+            let [u, v] = node.place;
+            plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings)?;
+            rows.push(row(curve, &node, &meetings)?);
+        }
+        unwrap_turns(&mut rows, MEETINGS, order);
+        let channels = (0..rows[0].len())
+            .map(|c| {
+                let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
+                let mut series = Chebyshev::fit(&values, from, to);
+                series.truncate(degree);
+                series
+            })
+            .collect();
+        Some(Self { channels, order, from, to })
+    }
+
+    fn at(&self, channel: usize, sin: f64) -> (f64, f64) {
+        let ([value], [slope]) = self.channels[channel].at(sin);
+        (value, slope)
+    }
+
+    /// The launch point beyond the rim up to which waves tunnel.
+    pub(crate) fn end_of_tunnel(&self, index: Complex64, x: f64) -> f64 {
+        (self.last_real() + TUNNEL * x.powf(-2.0 / 3.0)).min(0.98 * index.re)
+    }
+
+    /// The integrand on an even grid of launch points up to `end`, fine enough for directions that
+    /// differ from that of a ray by `spread` radians.
+    pub(crate) fn integrand(
+        &self,
+        weight: impl Fn(f64) -> f64,
+        end: f64,
+        spread: f64,
+        index: Complex64,
+        x: f64,
+    ) -> Option<Integrand> {
+        // the phase turns by x (ϑ(β) - ϑ) per impact
+        let count = ((end - self.from) * x * spread * SAMPLES_PER_PERIOD / TAU).ceil();
+        let step = (end - self.from) / count;
+        let count = count as usize;
+        let mut integrand = Integrand::with_capacity(count);
+        for k in 1..count {
+            let sin = self.from + k as f64 * step;
+            let weight = weight(sin) * step;
+            let matrix = self.transfer(sin, index, x)?;
+            let (spreading, _) = self.at(SPREADING, sin);
+            let (impact, rate) = self.at(IMPACT, sin);
+            let (path, _) = self.at(PATH, sin);
+            let (inside, _) = self.at(INSIDE, sin);
+            let absorbed = (-x * index.im * inside / index.re).exp();
+            let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
+            integrand.push(impact, path, matrix.map(|m| m * factor));
+        }
+        integrand.fill_lanes();
+        Some(integrand)
+    }
+
+    /// Launch point at which the first of entry and exit becomes grazing.
+    fn last_real(&self) -> f64 {
+        let grazing = |channel: usize| {
+            let mut sin = self.to;
+            for _ in 0..20 {
+                let (value, slope) = self.at(channel, sin);
+                let step = (value / slope).clamp(-0.02, 0.02);
+                if !step.is_finite() {
+                    return f64::INFINITY;
+                }
+                sin -= step;
+            }
+            sin
+        };
+        let (entry, exit) = (grazing(MEETINGS), grazing(MEETINGS + 3 * self.order));
+        entry.min(if exit > self.from { exit } else { f64::INFINITY }).clamp(self.to, self.to + 0.3)
+    }
+
+    /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
+    fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
+        let channel = |c: usize| self.at(MEETINGS + c, sin).0;
+        let [across, along] = transfer(channel, self.order, index, x);
+        let all = [across[0], along[1], -across[1], -along[0]];
+        all.iter().all(|s| s.is_finite()).then_some(all)
+    }
+}
+
+/// Fields `[perpendicular, perpendicular × direction]` of a ray that has left, for incident light of either
+/// kind, from three channels for each meeting (squared cosine outside, radius of curvature, turn of the
+/// frame before it) and the last turn of the frame; with the phases of the waves outside.
+pub(crate) fn transfer(
+    channel: impl Fn(usize) -> f64,
+    order: usize,
+    index: Complex64,
+    x: f64,
+) -> [[Complex64; 2]; 2] {
+    let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
+    for hit in 0..=order {
+        let square = channel(3 * hit);
+        turn(&mut fields, channel(3 * hit + 2));
+        let grazing = Grazing::whole(square, x * channel(3 * hit + 1));
+        let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
+        let f = curved_from_inside(inside, index, &grazing);
+        let through = hit == 0 || hit == order;
+        let (perpendicular, parallel) = if through {
+            (f.t_perpendicular, f.t_parallel)
+        } else {
+            (f.r_perpendicular, f.r_parallel)
+        };
+        for field in &mut fields {
+            field[0] *= perpendicular;
+            field[1] *= parallel;
+        }
+    }
+    turn(&mut fields, channel(3 * (order + 1)));
+    fields
+}
+
+/// Turn the frame of fields about the ray.
+fn turn(fields: &mut [[Complex64; 2]; 2], angle: f64) {
+    let (sin, cos) = angle.sin_cos();
+    for field in fields {
+        let [a, b] = *field;
+        *field = [a * cos + b * sin, b * cos - a * sin];
+    }
+}
+
+/// All channels of one ray.
+fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
+    let plane = curve.plane();
+    let (_, growing) = plane.frame(node.angle);
+    let across = plane.across();
+    let exit = &node.exit;
+    let impact = exit.reference.dot(growing);
+    let minor = plane.spread_across(exit, node.angle);
+    let path = exit.path + impact * node.angle + paths_outside(meetings)?;
+    let spreading = node.angle.sin().abs() / minor.abs();
+    let mut row = vec![impact, path, spreading, path_inside(meetings)?];
+    row.extend(channels_of(meetings, across, across, exit.direction));
+    Some(row)
+}
+
+/// The ways of the waves outside from their turning points to the first meeting and from the last.
+fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
+    let outside = |m: &Meeting| {
+        m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
+    };
+    Some(outside(meetings.first()?) + outside(meetings.last()?))
+}
+
+/// The optical path inside.
+fn path_inside(meetings: &[Meeting]) -> Option<f64> {
+    Some(meetings.last()?.path - meetings.first()?.path)
+}
+
+/// The channels that [`transfer`] needs, for the first axes of the frames before and behind; frames are
+/// (perpendicular, perpendicular × direction).
+fn channels_of(
+    meetings: &[Meeting],
+    before: Vec3<f64>,
+    behind: Vec3<f64>,
+    direction: Vec3<f64>,
+) -> Vec<f64> {
+    let mut channels = Vec::with_capacity(3 * meetings.len() + 1);
+    let mut frame = before;
+    for meeting in meetings {
+        let angle = frame_turn(frame, meeting.perpendicular, meeting.direction);
+        channels.extend([meeting.cos_squared_outside, meeting.radius, angle]);
+        frame = meeting.perpendicular;
+    }
+    channels.push(frame_turn(frame, behind, direction));
+    channels
+}
+
+/// Unwrap the turns of frames, smooth along rows of which the channels of [`transfer`] begin at `first`.
+fn unwrap_turns(rows: &mut [Vec<f64>], first: usize, order: usize) {
+    for k in 1..rows.len() {
+        for hit in 0..=order + 1 {
+            let c = first + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
+            rows[k][c] += TAU * ((rows[k - 1][c] - rows[k][c]) / TAU).round();
+        }
+    }
+}
+
+/// Angle by which a frame about a ray must turn for its first axis to become another.
+fn frame_turn(from: Vec3<f64>, to: Vec3<f64>, direction: Vec3<f64>) -> f64 {
+    from.cross(direction).dot(to).atan2(from.dot(to))
+}

@@ -1,0 +1,7 @@
+//! Orders of small particles as sums over partial waves, whose coefficients come from rays.
+
+mod radial_line;
+mod radial_rays;
+mod waves;
+
+pub use waves::PartialWaves;

@@ -1,0 +1,349 @@
+//! Rays of one order along a line of launch points, as smooth functions of the exit ray's impact.
+//!
+//! The line goes to the rim from the launch point of the ray whose exit line passes through the particle's
+//! centre (orders from 4 on: from the middle of the shadow, its steep rays left out). What the wave of a
+//! ray needs is a polynomial along it, less what it is on a sphere, and continued beyond the last ray,
+//! where waves tunnel through the surface. Parts that are not analytic there, odd in the grazing angle of
+//! the entry and of the exit, are taken out as on a sphere: paths are measured between the turning points
+//! of the waves outside ([`Grazing::path_outside`]), directions turned back by the grazing angles.
+
+use super::radial_rays::{Way, path_on_sphere, path_series};
+use crate::farfield::branch::window::Window;
+use crate::farfield::impact_integral::rays::{TUNNEL, transfer};
+use crate::math::chebyshev::{self, Chebyshev};
+use crate::math::vec3::Vec3;
+use crate::optics::Grazing;
+use crate::shape::Silhouette;
+use crate::trace::Tracer;
+use num_complex::Complex64;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// Real rays on a line, and the degree of the polynomials through them.
+const RAYS: usize = 24;
+const DEGREE: usize = 16;
+/// Where the line begins, and the share of it left out before the last ray.
+const BEGIN: f64 = 0.02;
+const SPARE: f64 = 0.02;
+/// Orders from this on hold next to nothing in rays that meet the surface steeply, and those stray far
+/// on deformed particles: they rise between two launch points.
+const FIRST_OF_THE_RIM: u32 = 4;
+const RISE: Window = Window { start: 0.45, full: 0.65 };
+/// How far the phase of the density may be off, times 4.
+const LARGEST_TURN: f64 = 1.0;
+/// Least growth of the impact along the line.
+const LEAST_SLOPE: f64 = 0.1;
+/// Largest angle inside.
+const STEEPEST: f64 = 0.98 * FRAC_PI_2;
+
+/// Channels, each less what it is on a sphere: impact (a ratio), path, path inside, direction, direction
+/// of the impact, density; for each meeting the vector of incidence and the curvature along the ray times
+/// the square of the sine outside; last the normal of the ray's plane.
+const IMPACT: usize = 0;
+const PATH: usize = 1;
+const INSIDE: usize = 2;
+const DIRECTION: usize = 3;
+const ASIDE: usize = 6;
+const DENSITY: usize = 9;
+const MEETINGS: usize = 11;
+
+/// The line of launch points at one azimuth; its coordinate is a sphere's angle inside, `τ`, with the
+/// launch point at `s = n sin τ` of the way from the centre to the rim.
+pub(crate) struct RadialLine {
+    channels: Vec<Chebyshev<1>>,
+    order: usize,
+    azimuth: f64,
+    index: f64,
+    /// Sign of the incidence along the frame's first axis.
+    sense: f64,
+    /// The first real ray.
+    from: f64,
+    /// The last real ray, beyond which channels are continued.
+    last: f64,
+    /// Coordinate beyond which nothing tunnels.
+    end: f64,
+    /// Phase of the square root of the density, as it continues from the real ray at `anchor`.
+    anchor: f64,
+    turn: Complex64,
+}
+
+/// The wave of the ray of one impact.
+pub(crate) struct Ring {
+    /// Null vector `direction - i aside` of its plane.
+    pub null: Vec3<Complex64>,
+    /// Amplitudes along the normal of the plane and along the impact, for incident light along x and y.
+    pub fields: [[Complex64; 2]; 2],
+}
+
+/// Launch point of the ray of an order whose line goes through the centre when it has left, near the
+/// middle of the shadow.
+pub(crate) fn central_ray(
+    tracer: &Tracer,
+    silhouette: &Silhouette,
+    order: u32,
+) -> Option<[f64; 2]> {
+    const STEPS: usize = 40;
+    const RADII: usize = 16;
+    const AZIMUTHS: usize = 24;
+    const LONGEST: f64 = 0.05;
+    if order >= FIRST_OF_THE_RIM {
+        return Some([0.0; 2]);
+    }
+    let impact = |place: [f64; 2]| {
+        let exit = tracer.trace_order(place[0], place[1], order)?;
+        Some(exit.reference.dot(exit.reference).sqrt())
+    };
+    let mut nearest = ([0.0; 2], impact([0.0; 2]).unwrap_or(f64::MAX));
+    for j in 0..AZIMUTHS {
+        let (sin, cos) = (TAU * j as f64 / AZIMUTHS as f64).sin_cos();
+        let rim = silhouette.radius(sin.atan2(cos));
+        for i in 1..RADII {
+            let radius = 0.7 * rim * i as f64 / RADII as f64;
+            let place = [radius * cos, radius * sin];
+            if let Some(found) = impact(place).filter(|found| *found < nearest.1) {
+                nearest = (place, found);
+            }
+        }
+    }
+    let mut place = nearest.0;
+    for _ in 0..STEPS {
+        let exit = tracer.trace_order(place[0], place[1], order)?;
+        let [a, b] = exit.dx;
+        let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
+        let (ar, br) = (a.dot(exit.reference), b.dot(exit.reference));
+        let determinant = aa * bb - ab * ab;
+        let step = [(bb * ar - ab * br) / determinant, (aa * br - ab * ar) / determinant];
+        let size = step[0].hypot(step[1]);
+        let share = (LONGEST / size).min(1.0);
+        place = [place[0] - share * step[0], place[1] - share * step[1]];
+        if size < 1e-13 {
+            return Some(place);
+        }
+    }
+    None
+}
+
+impl RadialLine {
+    /// `None` where rays cannot be followed.
+    pub(crate) fn new(
+        tracer: &Tracer,
+        silhouette: &Silhouette,
+        order: u32,
+        centre: [f64; 2],
+        azimuth: f64,
+        x: f64,
+    ) -> Option<Self> {
+        let way = Way::new(tracer, silhouette, order, centre, azimuth);
+        let index = tracer.index().re;
+        let to = way.last_real().filter(|_| index > 1.0)?;
+        let inside = |s: f64| (s / index).asin();
+        let begin = if order < FIRST_OF_THE_RIM { BEGIN } else { RISE.start };
+        let (from, last) = (inside(begin), inside((1.0 - SPARE) * to));
+        let points = chebyshev::points(RAYS, from, last);
+        let sense = way.sense(index * last.sin())?;
+        let rows = points.iter().map(|&tau| way.row(tau, sense)).collect::<Option<Vec<_>>>()?;
+        let fit = |c: usize| {
+            let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
+            let mut series = Chebyshev::fit(&values, from, last);
+            series.truncate(DEGREE);
+            series
+        };
+        let channels: Vec<_> = (0..rows[0].len()).map(fit).collect();
+        let anchor = points[RAYS / 2];
+        // impacts must serve as coordinates
+        let slope =
+            |s: f64| way.exit(s).is_some_and(|exit| way.rates(&exit, s).impact[0] > LEAST_SLOPE);
+        if !points.iter().all(|tau| slope(index * tau.sin())) {
+            return None;
+        }
+        let wanted = way.root(anchor)?;
+        let order = order as usize;
+        let turn = Complex64::from(1.0);
+        let mut line =
+            Self { channels, order, azimuth, index, sense, from, last, end: last, anchor, turn };
+        let turn = wanted / line.root(anchor);
+        line.turn = turn / turn.norm();
+        // one of four, unless the polynomials fail
+        if line.turn.powi(4).arg().abs() > LARGEST_TURN {
+            return None;
+        }
+        let grazing = line.grazing(0).min(line.grazing(order));
+        let end = index * grazing.sin() + TUNNEL * x.powf(-2.0 / 3.0);
+        line.end = inside(end.min(index)).min(STEEPEST);
+        Some(line)
+    }
+
+    /// Whether the line begins at the centre.
+    fn whole(&self) -> bool {
+        self.order < FIRST_OF_THE_RIM as usize
+    }
+
+    /// A channel and its slope.
+    fn channel(&self, channel: usize, tau: f64) -> (f64, f64) {
+        let ([value], [slope]) = self.channels[channel].at(tau.min(self.last));
+        (value + slope * (tau - self.last).max(0.0), slope)
+    }
+
+    fn at(&self, channel: usize, tau: f64) -> f64 {
+        self.channel(channel, tau).0
+    }
+
+    /// Coordinate from the last real ray on at which a meeting becomes grazing.
+    fn grazing(&self, hit: usize) -> f64 {
+        const STEPS: usize = 40;
+        let step = (STEEPEST - self.last) / STEPS as f64;
+        let places = (0..=STEPS).map(|k| self.last + k as f64 * step);
+        places.into_iter().find(|&tau| self.incidence(hit, tau).square < 0.0).unwrap_or(STEEPEST)
+    }
+
+    /// How the ray meets the surface.
+    fn incidence(&self, hit: usize, tau: f64) -> Incidence {
+        let s = self.index * tau.sin();
+        let c = MEETINGS + 3 * hit;
+        let (v1, v2) = (self.sense * s + self.at(c, tau), self.at(c + 1, tau));
+        let sine = v1 * v1 + v2 * v2;
+        let radius = (sine / (s * s + self.at(c + 2, tau))).clamp(1e-3, 1e3);
+        Incidence { square: 1.0 - sine, radius, angle: v2.atan2(v1) }
+    }
+
+    /// Fields of the ray that has left, by [`transfer`].
+    fn fields(&self, tau: f64, index: Complex64, x: f64) -> [[Complex64; 2]; 2] {
+        let mut channels = Vec::with_capacity(3 * self.order + 4);
+        let (mut before, mut hand) = (0.0, 1.0);
+        for hit in 0..=self.order {
+            let Incidence { square, radius, angle } = self.incidence(hit, tau);
+            channels.extend([square, radius, hand * (angle - before)]);
+            before = angle;
+            // frames are mirrored where rays are reflected
+            if hit > 0 && hit < self.order {
+                hand = -hand;
+            }
+        }
+        let c = MEETINGS + 3 * (self.order + 1);
+        let normal = self.at(c + 1, tau).atan2(self.at(c, tau));
+        channels.push(hand * (normal - before));
+        transfer(|c| channels[c], self.order, index, x)
+    }
+
+    /// The path, with the ways of the waves outside.
+    fn path(&self, tau: f64) -> f64 {
+        let outside = |hit: usize| {
+            let Incidence { square, radius, .. } = self.incidence(hit, tau);
+            if square > 0.0 {
+                let sin = square.sqrt().min(1.0);
+                radius * (Grazing::path_outside(sin) - path_series(sin))
+            } else {
+                0.0
+            }
+        };
+        let s = self.index * tau.sin();
+        let sphere = if s < 1.0 {
+            let sin = (1.0 - s * s).sqrt();
+            Grazing::path_outside(sin) - path_series(sin)
+        } else {
+            0.0
+        };
+        let smooth = self.at(PATH, tau) + path_on_sphere(self.order, self.index, tau);
+        smooth + outside(0) + outside(self.order) - 2.0 * sphere
+    }
+
+    /// The impact and its slope.
+    fn impact(&self, tau: f64) -> (f64, f64) {
+        let (ratio, slope) = self.channel(IMPACT, tau);
+        let s = self.index * tau.sin();
+        (s * ratio, self.index * tau.cos() * ratio + s * slope)
+    }
+
+    /// Largest component along the light of the impact's moment.
+    pub(crate) fn largest_twist(&self) -> f64 {
+        let twist = |k: usize| {
+            let tau = self.from + (self.last - self.from) * k as f64 / 19.0;
+            let normal = self.vector(DIRECTION, tau).cross(self.vector(ASIDE, tau));
+            (self.impact(tau).0 * normal.z).abs()
+        };
+        (0..20).map(twist).fold(0.0, f64::max)
+    }
+
+    fn vector(&self, channel: usize, tau: f64) -> Vec3<f64> {
+        let [x, y, z] = [0, 1, 2].map(|k| self.at(channel + k, tau));
+        Vec3 { x, y, z }
+    }
+
+    /// Rings of the impacts `(l + ½)/x`, without the weight of this azimuth; the first `l` beside.
+    pub(crate) fn rings(&self, index: Complex64, x: f64) -> (usize, Vec<Ring>) {
+        // lines that begin near the centre are continued to it
+        let from = if self.whole() { 0.0 } else { self.impact(self.from).0 };
+        let first = (x * from - 0.5).ceil().max(1.0) as usize;
+        let mut tau = self.from;
+        let mut rings = Vec::new();
+        for l in first.. {
+            let impact = (l as f64 + 0.5) / x;
+            let Some(found) = self.launch_of(impact, tau).filter(|tau| *tau < self.end) else {
+                break;
+            };
+            tau = found;
+            let Some(ring) = self.ring(tau, index, x) else { break };
+            rings.push(ring);
+        }
+        (first, rings)
+    }
+
+    /// Launch coordinate of an impact.
+    fn launch_of(&self, impact: f64, near: f64) -> Option<f64> {
+        let mut tau = near;
+        for _ in 0..30 {
+            let (value, slope) = self.impact(tau);
+            let step = ((value - impact) / slope).clamp(-0.1, 0.1);
+            tau -= step;
+            if step.abs() < 1e-12 {
+                return (slope > 0.0).then_some(tau);
+            }
+        }
+        None
+    }
+
+    fn ring(&self, tau: f64, index: Complex64, x: f64) -> Option<Ring> {
+        let [across, along] = self.fields(tau, index, x);
+        let inside = self.at(INSIDE, tau) + 2.0 * self.order as f64 * index.re * tau.cos();
+        let absorbed = (-x * index.im * inside / index.re).exp();
+        let wave = Complex64::cis(TAU * (x / TAU * self.path(tau)).fract());
+        let s = self.index * tau.sin();
+        let rise = if self.whole() { 1.0 } else { RISE.weight(s) };
+        let weight = wave * self.root(tau) * (x / TAU * s * absorbed * rise);
+        let (sin, cos) = self.azimuth.sin_cos();
+        let fields = [
+            [0, 1].map(|k| weight * (along[k] * cos - across[k] * sin)),
+            [0, 1].map(|k| weight * (along[k] * sin + across[k] * cos)),
+        ];
+        let direction = self.vector(DIRECTION, tau);
+        let direction = direction * direction.dot(direction).sqrt().recip();
+        let aside = self.vector(ASIDE, tau);
+        let aside = aside - direction * aside.dot(direction);
+        let aside = aside * aside.dot(aside).sqrt().recip();
+        let null = Vec3 {
+            x: Complex64::new(direction.x, -aside.x),
+            y: Complex64::new(direction.y, -aside.y),
+            z: Complex64::new(direction.z, -aside.z),
+        };
+        fields.iter().flatten().all(|f| f.is_finite()).then_some(Ring { null, fields })
+    }
+
+    /// Root of the density, continued from the anchor.
+    fn root(&self, tau: f64) -> Complex64 {
+        const STEPS: usize = 24;
+        let density = |tau: f64| -Complex64::new(self.at(DENSITY, tau), self.at(DENSITY + 1, tau));
+        let mut root = density(self.anchor).sqrt();
+        for k in 1..=STEPS {
+            let next = density(self.anchor + (tau - self.anchor) * k as f64 / STEPS as f64).sqrt();
+            root = if (next * root.conj()).re < 0.0 { -next } else { next };
+        }
+        root * self.turn
+    }
+}
+
+/// How a ray meets the surface: squared cosine outside, radius of curvature, azimuth of the incidence in
+/// the ray's frame.
+struct Incidence {
+    square: f64,
+    radius: f64,
+    angle: f64,
+}

@@ -1,0 +1,15 @@
+//! What a far field is made with.
+
+/// What a far field is made with.
+#[derive(Clone, Debug)]
+pub struct FarFieldSettings<'a> {
+    pub size_parameter: f64,
+    pub orders: &'a [u32],
+    pub tolerance: f64,
+    /// Whether forward diffraction goes with order 0, joined by the edge wave.
+    pub diffraction: bool,
+    /// Whether orders of flattened particles are checked against beams.
+    pub checked: bool,
+    /// Azimuths that will be asked for (radians); few of them are traced directly.
+    pub azimuths: &'a [f64],
+}
