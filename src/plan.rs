@@ -6,6 +6,7 @@
 use crate::medium::MediumError;
 use crate::optics::fresnel;
 use crate::scene::{Diffraction, Method, Orders, Particle, Scene};
+use crate::series::tmatrix::{self, TMatrixError};
 use crate::shape::{Shape, ShapeError};
 use std::f64::consts::{PI, TAU};
 
@@ -16,6 +17,8 @@ pub enum PlanError {
     Shape(#[from] ShapeError),
     #[error(transparent)]
     Medium(#[from] MediumError),
+    #[error(transparent)]
+    TMatrix(#[from] TMatrixError),
     #[error("method = \"{0}\": the exact series serve spheres only; accepted here: \"rays\"")]
     SeriesNeedsSphere(&'static str),
     #[error(
@@ -46,6 +49,8 @@ pub enum Engine {
     Patches,
     LorenzMie,
     Debye,
+    /// Null field or least squares: exact for bodies of revolution.
+    TMatrix,
 }
 
 /// How the scattering depends on azimuth.
@@ -95,7 +100,7 @@ impl Plan {
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         let (shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
         let mut reasons = Vec::new();
-        let engine = engine(scene, &shape, &mut reasons)?;
+        let engine = engine(scene, &shape, radius, &mut reasons)?;
         let symmetry = symmetry(&shape, &mut reasons);
         let indices = scene
             .wavelengths
@@ -200,7 +205,38 @@ pub fn shape(particle: &Particle, sun_elevation: f64) -> Result<(Shape, f64), Sh
     })
 }
 
-fn engine(scene: &Scene, shape: &Shape, reasons: &mut Vec<String>) -> Result<Engine, PlanError> {
+/// Whether `auto` computes a body that is no sphere by its T-matrix: at all wavelengths or at none.
+fn takes_t_matrix(
+    scene: &Scene,
+    shape: &Shape,
+    radius: f64,
+    reasons: &mut Vec<String>,
+) -> Result<bool, PlanError> {
+    let whole = scene.orders == Orders::Auto
+        && scene.interference
+        && scene.diffraction == Diffraction::Airy
+        && scene.rays_across.is_none();
+    if !whole {
+        return Ok(false);
+    }
+    let shortest = scene.wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
+    let expected = tmatrix::expectation(shape, TAU * radius / shortest)?;
+    let accepted = expected.is_accepted();
+    if accepted {
+        reasons.push(format!(
+            "rays are skipped: the T-matrix is exact here, {} degrees, {:.2} s of one core per wavelength",
+            expected.degrees, expected.cpu_seconds
+        ));
+    }
+    Ok(accepted)
+}
+
+fn engine(
+    scene: &Scene,
+    shape: &Shape,
+    radius: f64,
+    reasons: &mut Vec<String>,
+) -> Result<Engine, PlanError> {
     let sphere = shape.is_sphere();
     Ok(match scene.method {
         Method::Auto if sphere => {
@@ -211,6 +247,8 @@ fn engine(scene: &Scene, shape: &Shape, reasons: &mut Vec<String>) -> Result<Eng
         Method::Debye if !sphere => return Err(PlanError::SeriesNeedsSphere("debye")),
         Method::Mie => Engine::LorenzMie,
         Method::Debye => Engine::Debye,
+        Method::TMatrix => Engine::TMatrix,
+        Method::Auto if takes_t_matrix(scene, shape, radius, reasons)? => Engine::TMatrix,
         Method::Auto | Method::Rays => {
             if scene.interference && scene.diffraction == Diffraction::Airy {
                 Engine::Meridians

@@ -16,6 +16,7 @@ use crate::series::SeriesError;
 use crate::series::debye::Term;
 use crate::series::mean::MeanError;
 use crate::series::table::{Source, SphereJob, sphere_slab};
+use crate::series::tmatrix::{TMatrix, TMatrixError, TableJob};
 use crate::size_distribution::SizeDistribution;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
@@ -31,6 +32,8 @@ pub enum SimulateError {
     Medium(#[from] MediumError),
     #[error(transparent)]
     Series(#[from] SeriesError),
+    #[error(transparent)]
+    TMatrix(#[from] TMatrixError),
     #[error(transparent)]
     Mean(#[from] MeanError),
     #[error(
@@ -91,6 +94,9 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
         return Ok(series_slab(scene, plan, wavelength)?);
+    }
+    if plan.engine == Engine::TMatrix {
+        return Ok(t_matrix_slab(scene, plan, wavelength, index)?);
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
@@ -214,6 +220,7 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
             Engine::Meridians | Engine::Patches => "rays",
             Engine::LorenzMie => "mie",
             Engine::Debye => "debye",
+            Engine::TMatrix => "tmatrix",
         }
         .into(),
         shape: match scene.particle {
@@ -296,6 +303,31 @@ fn tracer<'a>(plan: &'a Plan, index: Complex64, size_parameter: f64) -> Tracer<'
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.
 const FIRST_SPOKE: f64 = 0.0123;
+
+/// The T-matrix of a body of revolution.
+fn t_matrix_slab(
+    scene: &Scene,
+    plan: &Plan,
+    wavelength: f64,
+    index: Complex64,
+) -> Result<Slab, TMatrixError> {
+    let size_parameter = TAU * plan.radius / wavelength;
+    let t = TMatrix::new(&plan.shape, size_parameter, index, scene.tolerance)?;
+    let axes = Axes {
+        wavelength: vec![wavelength],
+        theta: scene.theta.clone(),
+        phi: plan.table_azimuths(&scene.phi),
+    };
+    let job = TableJob {
+        wavelength,
+        radius: plan.radius,
+        sun_elevation: scene.sun_elevation,
+        axes: &axes,
+        quantity: scene.quantity,
+        forward_peak: scene.forward_peak,
+    };
+    Ok(job.slab(&t))
+}
 
 /// The exact series for a sphere.
 fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, MeanError> {

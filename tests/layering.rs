@@ -14,8 +14,8 @@ const FLOORS: [(u32, &[&str]); 10] = [
     (6, &["tabulate"]),
     (5, &["farfield"]),
     // The export formats that are netCDF files use the writer of hdf5.
-    (4, &["plan", "series", "export"]),
-    (3, &["hdf5", "compare", "render"]),
+    (4, &["plan", "export"]),
+    (3, &["series", "hdf5", "compare", "render"]),
     (2, &["scene", "phase_table", "trace"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution"]),
     (0, &["math", "pending_file"]),

@@ -29,6 +29,9 @@ pub struct MaterialArgs {
     /// Wavelengths in vacuum: values and FROM:TO:STEP ranges, separated by commas
     #[arg(long, value_name = "NM", value_parser = parse_wavelengths)]
     wavelength_nm: Option<Wavelengths>,
+    /// Frequencies in place of wavelengths, GHz: as for those
+    #[arg(long, value_name = "GHZ", value_parser = parse_frequencies, conflicts_with = "wavelength_nm")]
+    frequency_ghz: Option<Wavelengths>,
     /// Temperature of water (default 20)
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     temperature_c: Option<f64>,
@@ -152,7 +155,7 @@ fn medium(name: &str, args: &MaterialArgs) -> Result<Medium> {
 
 /// What was asked for, or every 20 nm of visible light that the data cover.
 fn wavelengths(args: &MaterialArgs, medium: &Medium, other: Option<&Medium>) -> Vec<f64> {
-    if let Some(given) = &args.wavelength_nm {
+    if let Some(given) = args.wavelength_nm.as_ref().or(args.frequency_ghz.as_ref()) {
         return given.0.clone();
     }
     let covers = |m: &Medium, nm: f64| m.index(nm / 1e9).is_ok();
@@ -339,6 +342,12 @@ fn is_plot(path: &Path) -> bool {
 
 /// Most wavelengths of one call.
 const MOST: f64 = 1e6;
+
+/// The wavelengths, in nanometres, of frequencies.
+fn parse_frequencies(text: &str) -> Result<Wavelengths, String> {
+    let ghz = parse_wavelengths(text).map_err(|error| error.replace("nanometres", "GHz"))?.0;
+    Ok(Wavelengths(ghz.into_iter().map(|f| gonio::medium::wavelength_of_ghz(f) * 1e9).collect()))
+}
 
 fn parse_wavelengths(text: &str) -> Result<Wavelengths, String> {
     let number = |part: &str| {

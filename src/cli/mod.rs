@@ -33,6 +33,7 @@ use gonio::render::RenderError;
 use gonio::scene::SceneError;
 use gonio::series::SeriesError;
 use gonio::series::mean::MeanError;
+use gonio::series::tmatrix::TMatrixError;
 use gonio::shape::ShapeError;
 use gonio::simulate::SimulateError;
 use std::process::ExitCode;
@@ -144,7 +145,8 @@ fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
         || cause.is::<SceneError>()
         || cause.is::<MediumError>()
         || cause.is::<ShapeError>()
-        || cause.is::<PlanError>();
+        || cause.is::<PlanError>()
+        || cause.is::<TMatrixError>();
     always
         || cause.downcast_ref::<TableError>().is_some_and(TableError::is_wrong_input)
         || cause.downcast_ref::<ExportError>().is_some_and(ExportError::is_wrong_input)
@@ -153,7 +155,9 @@ fn is_wrong_input(cause: &(dyn std::error::Error + 'static)) -> bool {
             .is_some_and(|e| !matches!(e, SeriesError::OutOfMemory { .. }))
         || matches!(cause.downcast_ref(), Some(RenderError::Invalid { .. }))
         || match cause.downcast_ref::<SimulateError>() {
-            Some(SimulateError::Plan(_) | SimulateError::Medium(_)) => true,
+            Some(SimulateError::Plan(_) | SimulateError::Medium(_) | SimulateError::TMatrix(_)) => {
+                true
+            }
             Some(SimulateError::Series(inner)) => is_wrong_input(inner),
             Some(SimulateError::Mean(MeanError::Series(inner))) => is_wrong_input(inner),
             Some(SimulateError::Mean(_)) => true,

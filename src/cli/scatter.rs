@@ -1,4 +1,5 @@
-//! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie or Debye terms.
+//! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie, Debye terms or
+//! the T-matrix.
 
 use super::UsageError;
 use super::scatter_input::{
@@ -11,6 +12,7 @@ use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{Engine, LARGEST_K_OVER_N, Plan, RAY_SIZES, Symmetry, last_order};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
+use gonio::series::tmatrix::{Scattered, TMatrix};
 use gonio::shape::Shape;
 use gonio::simulate;
 use gonio::trace::{Fates, Tracer, Wavefront, energy_by_fate};
@@ -24,6 +26,8 @@ enum MethodName {
     Rays,
     Mie,
     Debye,
+    /// Exact for bodies of revolution
+    Tmatrix,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -51,6 +55,9 @@ pub struct ScatterArgs {
     /// Wavelength in vacuum, nanometres
     #[arg(long, allow_hyphen_values = true)]
     wavelength_nm: Option<f64>,
+    /// Frequency in place of the wavelength, GHz
+    #[arg(long, allow_hyphen_values = true, conflicts_with = "wavelength_nm")]
+    frequency_ghz: Option<f64>,
     /// Size parameter 2πa/λ of the sphere of equal volume
     #[arg(long, allow_hyphen_values = true)]
     size_parameter: Option<f64>,
@@ -105,6 +112,8 @@ struct Answer {
     q_back: Option<f64>,
     asymmetry: Option<f64>,
     diffraction_included: bool,
+    /// Estimated relative error of amplitudes, where the method has one
+    error_estimate: Option<f64>,
 }
 
 pub fn run(args: ScatterArgs) -> Result<()> {
@@ -114,6 +123,7 @@ pub fn run(args: ScatterArgs) -> Result<()> {
         MethodName::Mie => mie(&args, &job)?,
         MethodName::Debye => debye(&args, &job)?,
         MethodName::Rays => rays(&args, &job)?,
+        MethodName::Tmatrix => t_matrix(&args, &job)?,
     };
     let seconds = start.elapsed().as_secs_f64();
     if args.json {
@@ -141,7 +151,11 @@ fn job(args: &ScatterArgs) -> Result<Job> {
     let radius =
         positive("radius-um", args.radius_um)?
             .or(positive("diameter-mm", args.diameter_mm)?.map(|d| 500.0 * d));
-    let wavelength = positive("wavelength-nm", args.wavelength_nm)?;
+    let wavelength = positive("wavelength-nm", args.wavelength_nm)?.or(positive(
+        "frequency-ghz",
+        args.frequency_ghz,
+    )?
+    .map(|ghz| gonio::medium::wavelength_of_ghz(ghz) * 1e9));
     let size = positive("size-parameter", args.size_parameter)?;
     let radius_m = radius.unwrap_or(1.0) * 1e-6;
     let (size_parameter, wavelength_m) = match (size, wavelength, radius) {
@@ -186,7 +200,10 @@ fn sphere_only(args: &ScatterArgs) -> Result<()> {
     if round {
         return Ok(());
     }
-    Err(usage("--method mie and debye serve spheres only: use --method rays for this shape".into()))
+    Err(usage(
+        "--method mie and debye serve spheres only: use --method rays or tmatrix for this shape"
+            .into(),
+    ))
 }
 
 fn radians(job: &Job) -> Vec<f64> {
@@ -209,6 +226,7 @@ fn mie(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         q_back: Some(q.q_back),
         asymmetry: Some(q.asymmetry),
         diffraction_included: true,
+        error_estimate: None,
     })
 }
 
@@ -236,6 +254,7 @@ fn debye(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         q_back: Some(q.q_back),
         asymmetry: Some(q.asymmetry),
         diffraction_included,
+        error_estimate: None,
     })
 }
 
@@ -313,6 +332,33 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         q_back: Some(4.0 * back.s11() / job.size_parameter.powi(2)),
         asymmetry: Some((shadow * fates.forward_momentum + straight) / q_sca),
         diffraction_included: diffraction,
+        error_estimate: None,
+    })
+}
+
+/// Exact for bodies of revolution: amplitudes and cross sections of one T-matrix.
+fn t_matrix(args: &ScatterArgs, job: &Job) -> Result<Answer> {
+    if job.orders.is_some() || job.diffraction_term {
+        return Err(usage(format!(
+            "--orders {}: the T-matrix has all orders at once; --method debye or rays takes a list",
+            args.orders
+        )));
+    }
+    let shape = shape(args)?;
+    let t = TMatrix::new(&shape, job.size_parameter, job.index, args.tolerance)?;
+    let scattered = Scattered::new(&t, args.sun_elevation_deg.to_radians());
+    let directions: Vec<(f64, f64)> =
+        radians(job).into_iter().map(|theta| (theta, job.azimuth)).collect();
+    let q = scattered.efficiencies();
+    Ok(Answer {
+        amplitudes: scattered.directions(&directions),
+        q_ext: Some(q.q_ext),
+        q_sca: Some(q.q_sca),
+        q_abs: Some(q.q_ext - q.q_sca),
+        q_back: Some(q.q_back),
+        asymmetry: Some(q.asymmetry),
+        diffraction_included: true,
+        error_estimate: Some(t.error()),
     })
 }
 
@@ -334,6 +380,7 @@ fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Valu
             MethodName::Rays => "rays",
             MethodName::Mie => "mie",
             MethodName::Debye => "debye",
+            MethodName::Tmatrix => "tmatrix",
         },
         "size_parameter": job.size_parameter,
         "index": [job.index.re, job.index.im],
@@ -349,6 +396,7 @@ fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Valu
         "q_back": answer.q_back,
         "asymmetry": answer.asymmetry,
         "diffraction_included": answer.diffraction_included,
+        "error_estimate": answer.error_estimate,
         "seconds": seconds,
     })
 }

@@ -72,6 +72,9 @@ pub struct LightFlags {
     /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
     #[arg(long, value_name = "NM", allow_hyphen_values = true)]
     pub wavelengths_nm: Option<Grid>,
+    /// Frequencies in place of wavelengths: FROM:TO:COUNT or A,B,C
+    #[arg(long, value_name = "GHZ", allow_hyphen_values = true, conflicts_with = "wavelengths_nm")]
+    pub frequencies_ghz: Option<Grid>,
     /// Full width at half maximum of the band that each wavelength stands for (spheres)
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub bandwidth_nm: Option<f64>,
@@ -180,6 +183,7 @@ impl SceneFlags {
             light: LightKeys {
                 sun_elevation_deg: light.sun_elevation_deg,
                 wavelengths_nm: light.wavelengths_nm,
+                frequencies_ghz: light.frequencies_ghz,
                 bandwidth_nm: light.bandwidth_nm,
                 sun_disc: light.sun_disc,
             },

@@ -13,6 +13,7 @@ mod formula;
 pub mod kramers_kronig;
 mod library;
 mod material;
+mod microwave;
 mod refractive_index_info;
 mod resolve;
 mod sea_water;
@@ -30,6 +31,7 @@ pub use daimon::Daimon;
 pub use formula::Formula;
 pub use library::{LibraryEntry, list};
 pub use material::{Material, RealIndex};
+pub use microwave::{MicrowaveWater, wavelength_of_ghz};
 pub use solution::{Dye, Solution};
 pub use spec::{MediumSpec, NamedSpec};
 pub use table::Table;
@@ -61,10 +63,13 @@ pub enum MediumError {
 pub enum Medium {
     /// The same index at every wavelength.
     Constant(Complex64),
-    /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables.
+    /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables; in
+    /// the microwave after Liebe, Hufford & Manabe 1991.
     Water { temperature: f64 },
     /// Water or steam of any density (kg/m³), temperature in kelvin.
     WaterOfDensity { temperature: f64, density: f64 },
+    /// Liquid water in the microwave, temperature in kelvin.
+    MicrowaveWater { model: MicrowaveWater, temperature: f64 },
     /// Sea water, temperature in kelvin, salinity in g/kg.
     SeaWater { temperature: f64, salinity: f64 },
     /// Distilled water after Daimon & Masumura.
@@ -92,7 +97,11 @@ impl Medium {
     fn index_of_data(&self, wavelength: f64) -> Result<Complex64, MediumError> {
         match self {
             Medium::Constant(index) => Ok(*index),
+            Medium::Water { temperature } if wavelength >= MICROWAVES => {
+                MicrowaveWater::Liebe1991.index(wavelength, *temperature)
+            }
             Medium::Water { temperature } => water::index(wavelength, *temperature),
+            Medium::MicrowaveWater { model, temperature } => model.index(wavelength, *temperature),
             Medium::WaterOfDensity { temperature, density } => {
                 water::at_density(wavelength, *temperature, *density)
             }
@@ -110,6 +119,7 @@ impl Medium {
         match self {
             Medium::Constant(_) => (0.0, f64::INFINITY),
             Medium::Water { .. } | Medium::WaterOfDensity { .. } => water::RANGE,
+            Medium::MicrowaveWater { model, .. } => model.range(),
             Medium::SeaWater { .. } => sea_water::RANGE,
             Medium::Daimon(water) => water.range(),
             Medium::Material(material) => material.range,
@@ -126,6 +136,9 @@ impl Medium {
             Medium::WaterOfDensity { temperature, density } => {
                 format!("water at {}, {density} kg/m³", celsius(*temperature))
             }
+            Medium::MicrowaveWater { model, temperature } => {
+                format!("{} at {}", model.name(), celsius(*temperature))
+            }
             Medium::SeaWater { temperature, salinity } => {
                 format!("sea water at {}, {salinity} g/kg", celsius(*temperature))
             }
@@ -140,6 +153,7 @@ impl Medium {
         match self {
             Medium::Constant(_) => "given".into(),
             Medium::Water { .. } | Medium::WaterOfDensity { .. } => water::SOURCE.into(),
+            Medium::MicrowaveWater { model, .. } => model.source().into(),
             Medium::SeaWater { .. } => sea_water::SOURCE.into(),
             Medium::Daimon(water) => water.source().into(),
             Medium::Material(m) if m.extrapolate => {
@@ -164,6 +178,7 @@ impl Medium {
                 water::check_temperature(*temperature, true)?;
                 water::check_density(*density)
             }
+            Medium::MicrowaveWater { model, temperature } => model.check_temperature(*temperature),
             Medium::SeaWater { temperature, salinity } => {
                 sea_water::check_conditions(*temperature, *salinity)
             }
@@ -171,6 +186,9 @@ impl Medium {
         }
     }
 }
+
+/// Wavelengths in metres from which on water is that of the microwave: 1 THz.
+const MICROWAVES: f64 = 2.99e-4;
 
 fn invalid(field: &str, value: impl ToString, accepted: &str) -> MediumError {
     MediumError::Invalid {

@@ -5,8 +5,9 @@ use super::kramers_kronig::{Absorption, Tails};
 use super::spec::{MediumSpec, NamedSpec, has_ending};
 use super::table::{curve, name_of};
 use super::{
-    Abbe, BandModel, Daimon, Dye, Formula, Material, Medium, MediumError, PLAUSIBLE_INDEX,
-    RealIndex, Solution, csv_table, invalid, is_plausible, library, refractive_index_info,
+    Abbe, BandModel, Daimon, Dye, Formula, Material, Medium, MediumError, MicrowaveWater,
+    PLAUSIBLE_INDEX, RealIndex, Solution, csv_table, invalid, is_plausible, library,
+    refractive_index_info,
 };
 use num_complex::Complex64;
 use std::path::Path;
@@ -52,6 +53,11 @@ impl NamedSpec {
         let name = library::canonical(&self.name)?;
         self.refuse_foreign_conditions(&name)?;
         let temperature = self.temperature_c.unwrap_or(20.0) + 273.15;
+        if let Some(model) = MicrowaveWater::by_name(&name) {
+            let medium = Medium::MicrowaveWater { model, temperature };
+            medium.check_conditions()?;
+            return Ok(medium);
+        }
         let medium = match name.as_str() {
             "water" => match self.density_kg_m3 {
                 Some(density) => Medium::WaterOfDensity { temperature, density },
@@ -80,7 +86,8 @@ impl NamedSpec {
 
     /// Refuses a condition that the medium does not depend on, rather than ignore it.
     fn refuse_foreign_conditions(&self, name: &str) -> Result<(), MediumError> {
-        let water = ["water", "sea-water", "water-daimon"].contains(&name);
+        let water = ["water", "sea-water", "water-daimon"].contains(&name)
+            || MicrowaveWater::by_name(name).is_some();
         let foreign = [
             ("temperature_c", self.temperature_c, water),
             ("density_kg_m3", self.density_kg_m3, name == "water"),

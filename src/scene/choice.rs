@@ -108,6 +108,7 @@ impl Named for Method {
         ("rays", Method::Rays),
         ("mie", Method::Mie),
         ("debye", Method::Debye),
+        ("tmatrix", Method::TMatrix),
     ];
 }
 

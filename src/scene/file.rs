@@ -59,6 +59,9 @@ pub struct LightKeys {
     pub sun_elevation_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wavelengths_nm: Option<Grid>,
+    /// In place of wavelengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frequencies_ghz: Option<Grid>,
     /// Each wavelength stands for a band of this full width at half maximum.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bandwidth_nm: Option<f64>,
@@ -119,7 +122,10 @@ pub(super) const KEYS: [(&str, &[&str]); 4] = [
             "medium",
         ],
     ),
-    ("light", &["sun_elevation_deg", "wavelengths_nm", "bandwidth_nm", "sun_disc"]),
+    (
+        "light",
+        &["sun_elevation_deg", "wavelengths_nm", "frequencies_ghz", "bandwidth_nm", "sun_disc"],
+    ),
     ("table", &["quantity", "forward_peak", "bit_round", "theta_deg", "azimuth_deg"]),
     ("model", &["method", "interference", "diffraction", "orders", "tolerance", "rays_across"]),
 ];
@@ -175,7 +181,15 @@ impl LightKeys {
     fn overridden_by(self, flags: &LightKeys) -> LightKeys {
         LightKeys {
             sun_elevation_deg: flags.sun_elevation_deg.or(self.sun_elevation_deg),
-            wavelengths_nm: flags.wavelengths_nm.clone().or(self.wavelengths_nm),
+            // one of the two replaces the other
+            wavelengths_nm: flags
+                .wavelengths_nm
+                .clone()
+                .or(self.wavelengths_nm.filter(|_| flags.frequencies_ghz.is_none())),
+            frequencies_ghz: flags
+                .frequencies_ghz
+                .clone()
+                .or(self.frequencies_ghz.filter(|_| flags.wavelengths_nm.is_none())),
             bandwidth_nm: flags.bandwidth_nm.or(self.bandwidth_nm),
             sun_disc: flags.sun_disc.or(self.sun_disc),
         }

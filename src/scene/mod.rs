@@ -63,11 +63,13 @@ pub enum Particle {
 /// How scattering is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Lorenz–Mie for a sphere, rays otherwise.
+    /// Lorenz–Mie for a sphere, the T-matrix where it is cheap, rays otherwise.
     Auto,
     Rays,
     Mie,
     Debye,
+    /// The T-matrix of a body of revolution.
+    TMatrix,
 }
 
 /// Diffraction in the ray method.

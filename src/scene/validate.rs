@@ -35,7 +35,10 @@ impl SceneFile {
         let resolved = self.with_defaults();
         let (particle, light) = (&resolved.particle, &resolved.light);
         let (table, model) = (&resolved.table, &resolved.model);
-        let wavelengths = wavelengths(light.wavelengths_nm.as_ref())?;
+        let wavelengths = match &light.frequencies_ghz {
+            Some(grid) => frequencies(grid)?,
+            None => wavelengths(light.wavelengths_nm.as_ref())?,
+        };
         let scene = Scene {
             particle: particle_of(particle)?,
             size_distribution: size_distribution(particle)?,
@@ -79,7 +82,9 @@ impl SceneFile {
         }
         let range = |from, to, count| Grid::Range { from, to, count };
         full.light.sun_elevation_deg.get_or_insert(20.0);
-        full.light.wavelengths_nm.get_or_insert_with(|| range(380.0, 720.0, 33));
+        if full.light.frequencies_ghz.is_none() {
+            full.light.wavelengths_nm.get_or_insert_with(|| range(380.0, 720.0, 33));
+        }
         full.light.sun_disc.get_or_insert(Choice(SunDisc::None));
         full.table.theta_deg.get_or_insert_with(|| range(0.0, 180.0, 1801));
         full.table.azimuth_deg.get_or_insert_with(|| range(0.0, 360.0, 361));
@@ -137,9 +142,21 @@ fn axis(
 }
 
 fn wavelengths(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
-    let accepted = "wavelengths in vacuum, 1 to 1e6 nm, ascending";
-    let values = axis("light.wavelengths_nm", grid, 1.0..=1e6, accepted)?;
+    let accepted = "wavelengths in vacuum, 1 to 1e9 nm, ascending";
+    let values = axis("light.wavelengths_nm", grid, 1.0..=1e9, accepted)?;
     Ok(values.into_iter().map(|nm| nm * 1e-9).collect())
+}
+
+/// Wavelengths in vacuum of frequencies.
+fn frequencies(grid: &Grid) -> Result<Vec<f64>, SceneError> {
+    let accepted = "frequencies, 0.3 to 3e8 GHz, descending or ascending";
+    let key = "light.frequencies_ghz";
+    let mut ascending = grid.values().map_err(|reason| SceneError::invalid(key, grid, reason))?;
+    if ascending.windows(2).all(|pair| pair[0] > pair[1]) {
+        ascending.reverse();
+    }
+    let values = axis(key, Some(&Grid::List(ascending)), 0.3..=3e8, accepted)?;
+    Ok(values.iter().rev().map(|&ghz| crate::medium::wavelength_of_ghz(ghz)).collect())
 }
 
 fn theta(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
@@ -218,13 +235,11 @@ impl Scene {
     fn check_method(&self) -> Result<(), SceneError> {
         let series = matches!(self.method, Method::Mie | Method::Debye);
         if series && !matches!(self.particle, Particle::Sphere { .. }) {
-            let accepted =
-                "the exact series are for spheres; other shapes take \"rays\" or \"auto\"";
+            let accepted = "the exact series are for spheres; other shapes take \"rays\", \"tmatrix\" or \"auto\"";
             return Err(SceneError::invalid("model.method", self.method.name(), accepted));
         }
-        if let (Method::Mie, Orders::List(list)) = (self.method, &self.orders) {
-            let accepted =
-                "Lorenz–Mie has all orders at once; method = \"debye\" or \"rays\" takes a list";
+        if let (Method::Mie | Method::TMatrix, Orders::List(list)) = (self.method, &self.orders) {
+            let accepted = "exact methods have all orders at once; method = \"debye\" or \"rays\" takes a list";
             return Err(SceneError::invalid("model.orders", format!("{list:?}"), accepted));
         }
         Ok(())
@@ -233,7 +248,7 @@ impl Scene {
     /// Means over sizes, bands and the sun's disc are taken of the exact series.
     fn check_means(&self) -> Result<(), SceneError> {
         let sphere = matches!(self.particle, Particle::Sphere { .. });
-        let exact = sphere && self.method != Method::Rays;
+        let exact = sphere && !matches!(self.method, Method::Rays | Method::TMatrix);
         let many = self.size_distribution.is_some();
         let single = self.method == Method::Debye && (many || self.bandwidth > 0.0);
         if exact && !single {

@@ -6,7 +6,7 @@
 //! and one over m for each. Plane wave and far field after Mishchenko, Travis & Lacis 2002, eqs. 5.10
 //! and 5.25, with `E = exp(ikr)/(kr) F E₀`, `S = -iF`.
 
-use super::TMatrix;
+use super::matrix::TMatrix;
 use super::rotation::{sign, wigner};
 use super::waves::{Angular, gamma};
 use crate::math::gauss_legendre;
@@ -53,6 +53,17 @@ pub struct FixedEfficiencies {
     pub asymmetry: f64,
 }
 
+/// Components `[along θ̂, along φ̂][light along x, along y]` of one order's `F` at an angle.
+type Ring = [[Complex64; 2]; 2];
+
+/// An azimuth about the light, with the turns of all orders.
+#[derive(Clone, Debug)]
+pub struct Azimuth {
+    sin: f64,
+    cos: f64,
+    turns: Vec<Complex64>,
+}
+
 /// `i^k`.
 fn power_of_i(k: i64) -> Complex64 {
     match k.rem_euclid(4) {
@@ -87,19 +98,34 @@ impl Scattered {
         Self { top, size_parameter: t.size_parameter, shift: t.shift(), axis, orders }
     }
 
-    /// Amplitudes at one scattering angle and several azimuths (radians).
-    pub fn amplitudes(&self, theta: f64, azimuths: &[f64]) -> Vec<AmplitudeMatrix> {
-        let rings = self.rings(theta);
-        azimuths.iter().map(|&phi| self.at(&rings, theta, phi)).collect()
+    /// The size parameter of what scatters.
+    pub(super) fn size_parameter(&self) -> f64 {
+        self.size_parameter
     }
 
-    /// The same for pairs of scattering angle and azimuth.
+    /// An azimuth (radians) made ready for amplitudes at many scattering angles.
+    pub fn azimuth(&self, phi: f64) -> Azimuth {
+        let (sin, cos) = phi.sin_cos();
+        let turns = self.orders.iter().map(|(m, _)| Complex64::cis(*m as f64 * phi)).collect();
+        Azimuth { sin, cos, turns }
+    }
+
+    /// Amplitudes at one scattering angle (radians) and several azimuths.
+    pub fn amplitudes(&self, theta: f64, azimuths: &[Azimuth]) -> Vec<AmplitudeMatrix> {
+        let rings = self.rings(theta);
+        azimuths.iter().map(|azimuth| self.at(&rings, theta, azimuth)).collect()
+    }
+
+    /// Amplitudes at pairs of scattering angle and azimuth (radians).
     pub fn directions(&self, directions: &[(f64, f64)]) -> Vec<AmplitudeMatrix> {
-        directions.par_iter().map(|&(theta, phi)| self.at(&self.rings(theta), theta, phi)).collect()
+        directions
+            .par_iter()
+            .map(|&(theta, phi)| self.at(&self.rings(theta), theta, &self.azimuth(phi)))
+            .collect()
     }
 
     /// Components `[along θ̂, along φ̂][light along x, along y]` of `F` at an angle, by order.
-    fn rings(&self, theta: f64) -> Vec<(i64, [[Complex64; 2]; 2])> {
+    fn rings(&self, theta: f64) -> Vec<Ring> {
         let (sin, cos) = theta.sin_cos();
         let mut angular = Angular::default();
         self.orders
@@ -120,22 +146,21 @@ impl Scattered {
                         ring[1][light] += b * Complex64::I * pi - a * tau;
                     }
                 }
-                (*m, ring)
+                ring
             })
             .collect()
     }
 
-    fn at(&self, rings: &[(i64, [[Complex64; 2]; 2])], theta: f64, phi: f64) -> AmplitudeMatrix {
+    fn at(&self, rings: &[Ring], theta: f64, azimuth: &Azimuth) -> AmplitudeMatrix {
         let mut f = [[Complex64::ZERO; 2]; 2];
-        for (m, ring) in rings {
-            let turn = Complex64::cis(*m as f64 * phi);
+        for (ring, turn) in rings.iter().zip(&azimuth.turns) {
             for out in 0..2 {
                 for light in 0..2 {
                     f[out][light] += turn * ring[out][light];
                 }
             }
         }
-        let (sin, cos) = phi.sin_cos();
+        let (sin, cos) = (azimuth.sin, azimuth.cos);
         // S = -iF, and from the waves' origin back to the body's centre: exp(ik(i - s)·d)
         let height = self.axis.0 * (1.0 - theta.cos()) - self.axis.1 * theta.sin() * cos;
         let factor = -Complex64::I * Complex64::cis(self.shift * height);
@@ -152,8 +177,8 @@ impl Scattered {
     /// Extinction by the optical theorem, scattering by the waves that leave.
     pub fn efficiencies(&self) -> FixedEfficiencies {
         let x2 = self.size_parameter * self.size_parameter;
-        let forward = self.amplitudes(0.0, &[0.0])[0];
-        let back = self.amplitudes(PI, &[0.0])[0];
+        let ends = self.directions(&[(0.0, 0.0), (PI, 0.0)]);
+        let (forward, back) = (ends[0], ends[1]);
         let (power, momentum) = self.power_and_momentum();
         FixedEfficiencies {
             q_ext: 2.0 * (forward.s1 + forward.s2).re / x2,
@@ -169,7 +194,7 @@ impl Scattered {
             .into_par_iter()
             .map(|(cos, weight)| {
                 let ring = self.rings(cos.acos());
-                let parts = ring.iter().flat_map(|(_, f)| f.iter().flatten());
+                let parts = ring.iter().flatten().flatten();
                 let power = 0.5 * TAU * weight * parts.map(|c| c.norm_sqr()).sum::<f64>();
                 (power, power * cos)
             })
@@ -193,8 +218,7 @@ fn leaving(t: &TMatrix, m: i64, (cos, sin): (f64, f64)) -> OrderWaves {
         incident[k] = [magnetic * Complex64::I * pi, magnetic * tau];
         // Blocks hold electric waves turned by i, see `OrderBlock`.
         let turn = Complex64::I * side;
-        incident[degrees + k] =
-            [-electric * tau * turn, electric * Complex64::I * pi * turn];
+        incident[degrees + k] = [-electric * tau * turn, electric * Complex64::I * pi * turn];
     }
     let mut out = OrderWaves::zero(top);
     let t = &block.t;

@@ -6,8 +6,8 @@
 //! cure that; a fit by orthogonal factors (Householder's QR, columns scaled to about 1) still converges, though
 //! its ill-conditioned columns say nothing about single coefficients of high degree.
 
-use super::OrderBlock;
-use super::null_field::{System, components, systems};
+use super::block::{OrderBlock, System, systems};
+use super::null_field::components;
 use super::waves::{Angular, NodeWaves, Radial, power_of_two};
 use faer::Mat;
 use faer::linalg::solvers::{Qr, SolveLstsq};

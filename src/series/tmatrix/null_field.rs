@@ -11,32 +11,13 @@
 //! Where the body is its own mirror image only magnetic waves of one parity of n couple, and to electric ones
 //! of the other: two systems of half the size, from half the nodes.
 
-use super::OrderBlock;
+use super::block::{OrderBlock, systems};
 use super::waves::{Angular, NodeWaves, Radial, gamma, power_of_two};
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Accum, Mat, MatRef, Par};
 use num_complex::Complex64;
 use std::ops::Mul;
-
-/// Degrees n that couple as magnetic waves, and those that couple to them as electric ones.
-pub(super) struct System {
-    pub magnetic: Vec<usize>,
-    pub electric: Vec<usize>,
-}
-
-/// The systems of one order.
-pub(super) fn systems(m: usize, top: usize, mirror: bool) -> Vec<System> {
-    let all: Vec<usize> = (m.max(1)..=top).collect();
-    if !mirror {
-        return vec![System { magnetic: all.clone(), electric: all }];
-    }
-    let (even, odd): (Vec<usize>, Vec<usize>) = all.into_iter().partition(|n| n % 2 == 0);
-    vec![
-        System { magnetic: even.clone(), electric: odd.clone() },
-        System { magnetic: odd, electric: even },
-    ]
-}
 
 /// The four products for one set of outside degrees, each with `j_n` and `y_n` outside.
 /// `p`, `r` against the same degrees inside, `u`, `v` against the other.
@@ -60,10 +41,8 @@ pub(super) fn order_block(
     let real = index.im == 0.0;
     let mut block = OrderBlock::zero(m, top);
     let systems = systems(m, top, mirror);
-    let products: Vec<Products> = systems
-        .iter()
-        .map(|s| products(waves, &angular, &s.magnetic, &s.electric, real))
-        .collect();
+    let products: Vec<Products> =
+        systems.iter().map(|s| products(waves, &angular, &s.magnetic, &s.electric, real)).collect();
     for (at, system) in systems.iter().enumerate() {
         // Outside electric waves of this system are the outside magnetic ones of the other.
         let electric = &products[products.len() - 1 - at];
@@ -75,7 +54,12 @@ pub(super) fn order_block(
 }
 
 /// `Q` with `j_n` (0) or `y_n` (1) outside.
-fn q_matrix(magnetic: &Products, electric: &Products, index: Complex64, z: usize) -> Mat<Complex64> {
+fn q_matrix(
+    magnetic: &Products,
+    electric: &Products,
+    index: Complex64,
+    z: usize,
+) -> Mat<Complex64> {
     let (rows, columns) = (magnetic.p[z].nrows(), magnetic.p[z].ncols());
     let size = rows + electric.p[z].nrows();
     Mat::from_fn(size, size, |i, k| match (i < rows, k < columns) {

@@ -6,7 +6,7 @@
 //! `r'/r` follows from the implicit function. So any star-shaped body is served alike, and moving
 //! the origin costs nothing. θ counts from the *upper* pole here.
 
-use super::TMatrixError;
+use super::error::TMatrixError;
 use crate::math::gauss_legendre;
 use crate::shape::Shape;
 
@@ -102,7 +102,11 @@ impl<'a> Surface<'a> {
             if step.abs() < 1e-15 || high - low < 1e-15 {
                 break;
             }
-            if s.f < 0.0 { low = r } else { high = r }
+            if s.f < 0.0 {
+                low = r
+            } else {
+                high = r
+            }
             let next = r - step;
             let inside = next >= low && next <= high;
             r = if inside { next } else { 0.5 * (low + high) };

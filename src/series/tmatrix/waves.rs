@@ -110,8 +110,7 @@ fn spherical_bessel(z: Complex64, top: usize, attenuation: f64) -> Vec<Complex64
     let (sin, cos) = ((plus - minus) * -Complex64::I, plus + minus);
     let zeroth = sin * inverse;
     let first = if modulus > 0.3 { (zeroth - cos) * inverse } else { Complex64::ZERO };
-    let factor =
-        if zeroth.norm() > first.norm() { zeroth / out[0] } else { first / out[1] };
+    let factor = if zeroth.norm() > first.norm() { zeroth / out[0] } else { first / out[1] };
     out.iter_mut().for_each(|value| *value *= factor);
     out.truncate(top + 1);
     out
@@ -140,8 +139,13 @@ pub(super) struct Angular {
 impl Angular {
     /// For n to `top`; `m ≥ 0`. By upward recurrence of `d/sin θ`, stable in this normalisation.
     pub(super) fn new(m: usize, top: usize, cos: f64, sin: f64) -> Self {
-        let mut it = Self { d: vec![0.0; top + 1], pi: vec![0.0; top + 1], tau: vec![0.0; top + 1] };
-        if m == 0 { it.fill_axial(top, cos, sin) } else { it.fill(m, top, cos, sin) }
+        let mut it =
+            Self { d: vec![0.0; top + 1], pi: vec![0.0; top + 1], tau: vec![0.0; top + 1] };
+        if m == 0 {
+            it.fill_axial(top, cos, sin)
+        } else {
+            it.fill(m, top, cos, sin)
+        }
         it
     }
 

@@ -1,0 +1,31 @@
+//! Why there is no T-matrix: what was asked for, and what would be accepted.
+
+use super::range;
+
+/// Why there is no T-matrix.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TMatrixError {
+    #[error(
+        "the body is not star-shaped: a ray at {angle_deg:.1}° from its axis meets the surface more \
+         than once"
+    )]
+    NotStarShaped { angle_deg: f64 },
+    #[error(
+        "size parameter = {0}: the T-matrix accepts finite numbers of at least {least:e}",
+        least = range::LEAST_SIZE
+    )]
+    Size(f64),
+    #[error(
+        "size parameter {size_parameter}: its T-matrix needs {degrees} degrees, at most {} are accepted \
+         (minutes of time, gigabytes of memory); rays serve such particles",
+        range::MOST_DEGREES
+    )]
+    TooLarge { size_parameter: f64, degrees: usize },
+    #[error(
+        "size parameter {size_parameter}: the T-matrix of this body does not converge to tolerance \
+         {tolerance:e}; the best reached has error {reached:.1e} with {degrees} degrees"
+    )]
+    NotConverged { size_parameter: f64, tolerance: f64, reached: f64, degrees: usize },
+    #[error("size parameter {size_parameter}: the T-matrix of this body overflows")]
+    Diverged { size_parameter: f64 },
+}
