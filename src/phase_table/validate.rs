@@ -9,6 +9,9 @@ use std::f64::consts::{PI, TAU};
 const ELEMENT_TOLERANCE: f64 = 1e-5;
 /// How far Σ P·ΔΩ may be from 1 where the table covers the sphere.
 const NORMALISATION_TOLERANCE: f64 = 1e-3;
+/// Share by which the power of a list of orders may differ from that of its traced rays (measured: 0.6 %
+/// for order 1 at a size parameter of 100).
+const PART_TOLERANCE: f64 = 0.02;
 /// How far extinction may be from scattering and absorption, relative: rounding.
 const BALANCE_TOLERANCE: f64 = 1e-6;
 /// How far extinction may be from the optical theorem on the amplitude straight ahead, relative: two
@@ -158,7 +161,9 @@ impl Slab {
             ForwardPeak::Point => return Ok(()),
         };
         let sum = self.sum(&header.axes);
-        let slack = NORMALISATION_TOLERANCE + rounding;
+        // What a list of orders leaves out is known as well as rays know the power of an order.
+        let part = if self.left_out == 0.0 { 0.0 } else { PART_TOLERANCE * expected.abs() };
+        let slack = NORMALISATION_TOLERANCE + rounding + part;
         let off = (sum - expected).abs();
         if header.axes.cover_sphere() && (off.is_nan() || off > slack) {
             let accepted = format!("{expected:.6} ± {slack} at {nm} nm");

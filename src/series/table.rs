@@ -114,7 +114,7 @@ pub fn sphere_slab(
     let total: f64 = weights.sum();
     if (total / (4.0 * PI) - 1.0).abs() < 1e-6 && !cells.is_empty() {
         let peak = sum(&elements[..cells.len()]);
-        let factor = ((1.0 - sum(&elements) + peak) / peak).clamp(0.5, 2.0);
+        let factor = ((1.0 - curves.left_out - sum(&elements) + peak) / peak).clamp(0.5, 2.0);
         elements[..cells.len()].iter_mut().flatten().for_each(|m| *m *= factor);
     }
     let values = Array3::from_shape_fn((quantity.elements(), theta.len(), 1), |(e, i, _)| {
