@@ -10,7 +10,7 @@ const ELEMENT_TOLERANCE: f64 = 1e-5;
 /// How far Σ P·ΔΩ may be from 1 where the table covers the sphere.
 const NORMALISATION_TOLERANCE: f64 = 1e-3;
 /// Share by which the power of a list of orders may differ from that of its traced rays (measured: 0.6 %
-/// for order 1 at a size parameter of 100).
+/// for order 1 at a size parameter of 1257).
 const PART_TOLERANCE: f64 = 0.02;
 /// How far extinction may be from scattering and absorption, relative: rounding.
 const BALANCE_TOLERANCE: f64 = 1e-6;
