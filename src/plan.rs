@@ -26,12 +26,12 @@ pub enum PlanError {
     SeriesNeedsSphere(&'static str),
     #[error(
         "index {index}{place} with size parameter {size_parameter:.0}: light loses more than the ray \
-         picture can follow (k/n must stay below {limit}); use method = \"mie\" for a sphere"
+         picture can follow (k/n must stay below {limit}); use --method mie (method = \"mie\" in a scene) for a sphere"
     )]
     TooAbsorbing { index: String, place: String, size_parameter: f64, limit: f64 },
     #[error(
         "size parameter {size_parameter:.3e}{place}: rays are accepted from {} to {:e} (below, there \
-         are no rays; above, phases lose their digits); use method = \"mie\" for a small sphere",
+         are no rays; above, phases lose their digits); use --method mie (method = \"mie\" in a scene) for a small sphere",
         RAY_SIZES.0,
         RAY_SIZES.1
     )]
@@ -40,7 +40,7 @@ pub enum PlanError {
         "index {index}{place} with size parameter {size_parameter:.4}: the phase shift through the \
          particle, 2x|n - 1| = {phase_shift:.3}, is too small for rays, which are accepted from \
          {LEAST_PHASE_SHIFT} on (below, the light that passes and the light around the particle are \
-         one wave: extinction by rays is {SOFT_MISS} off); use method = \"mie\" for a sphere"
+         one wave: extinction by rays is {SOFT_MISS} off); use --method mie (method = \"mie\" in a scene) for a sphere"
     )]
     Soft { index: String, place: String, size_parameter: f64, phase_shift: f64 },
 }

@@ -81,7 +81,7 @@ fn scatter_words_are_checked() {
     for (words, told) in [
         ("--method mie --size-parameter -1 --theta 10", "size-parameter"),
         ("--method rays --size-parameter 1e300 --index 1.33 --theta 10", "accepted from 1 to 1e9"),
-        ("--method rays --size-parameter 0.01 --index 1.33 --theta 10", "use method = \"mie\""),
+        ("--method rays --size-parameter 0.01 --index 1.33 --theta 10", "use --method mie"),
         ("--method mie --size-parameter 10 --index 1.3-0.1 --theta 10", "index"),
         ("--method mie --size-parameter 10 --index 1.3 --theta 200", "theta"),
         ("--method mie --shape raindrop --size-parameter 10 --index 1.3 --theta 20", "sphere"),

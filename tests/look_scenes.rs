@@ -121,6 +121,17 @@ fn a_table_that_makes_no_picture_is_refused_clearly() {
     picture_of(visible, (90.0, 180.0), &[]).success();
 }
 
+/// The corona and the glory, with the sun's disc across the axis.
+#[test]
+fn diagrams_reach_both_ends_of_the_axis() {
+    for theta in ["0:4:0.5", "176:180:0.5"] {
+        gonio()
+            .args(["lee", "--json", "--radius-mm", "0.005:0.01:3", "--theta", theta])
+            .assert()
+            .success();
+    }
+}
+
 #[test]
 fn a_diagram_that_makes_no_sense_is_refused_clearly() {
     for (flags, said) in [

@@ -97,43 +97,39 @@ fn means_that_make_no_sense() {
 /// Files of optical data with every fault that is likely: file and line are named.
 #[test]
 fn faulty_media() {
+    let pole = "DATA:\n  - type: formula 2\n    wavelength_range: 0.3 2.5\n    \
+                coefficients: 0 1.03 0.25 0.2 0.02 1.0 103.5\n";
     let cases = [
-        ("a.csv", "wavelength_nm,n\n400,1.5\n700,1.4\n", "outside the data of a (400 to 700 nm)"),
         (
             "a.csv",
-            "wavelength_nm,n,k\n400,1.5,0\n700,1.4,-1\n",
+            "wavelength_nm,n\n400,1.5\n700,1.4\n",
+            800,
             "outside the data of a (400 to 700 nm)",
         ),
-        ("a.csv", "wavelength_nm,n\n700,1.4\n400,1.5\n", "outside the data of a (400 to 700 nm)"),
+        ("a.csv", "wavelength_nm,n,k\n400,1.5,0\n700,1.4,-1\n", 650, "a.csv, line 3: k = -1"),
+        // Unsorted and repeated rows are data: the range is that of all rows.
         (
             "a.csv",
-            "wavelength_nm,n\n400,1.5\n400,1.4\n",
-            "outside the data of a (one row, at 400 nm)",
+            "wavelength_nm,n\n700,1.4\n400,1.5\n",
+            800,
+            "outside the data of a (400 to 700 nm)",
         ),
-        (
-            "a.csv",
-            "wavelength_um,n\n400,1.5\n700,1.4\n",
-            "outside the data of a (400000 to 700000 nm)",
-        ),
-        ("a.csv", "wavelength_nm,n\n400,1.5\n700,x\n", "a.csv, line 3"),
-        ("a.yml", "DATA: [\n", "a.yml"),
-        (
-            "a.yml",
-            "DATA:\n  - type: formula 2\n    wavelength_range: 0.3 2.5\n    \
-             coefficients: 0 1.03 0.64 0.2 0.02 1.0 103.5\n",
-            "pole",
-        ),
+        ("a.csv", "wavelength_nm,n\n400,1.5\n400,1.4\n", 800, "of a (one row, at 400 nm)"),
+        ("a.csv", "wavelength_um,n\n400,1.5\n700,1.4\n", 800, "of a (400000 to 700000 nm)"),
+        ("a.csv", "wavelength_nm,n\n400,1.5\n700,x\n", 650, "a.csv, line 3"),
+        ("a.yml", "DATA: [\n", 800, "a.yml"),
+        ("a.yml", pole, 500, "the pole of the formula at 500 nm"),
     ];
-    for (name, text, expected) in cases {
+    for (name, text, wavelength, expected) in cases {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join(name), text).unwrap();
         let scene = format!(
             "[particle]\nshape = \"sphere\"\nradius_um = 1\nmedium = {{ file = \"{name}\" }}\n\
-             [light]\nwavelengths_nm = [800]\n[model]\nmethod = \"mie\"\n"
+             [light]\nwavelengths_nm = [{wavelength}]\n[model]\nmethod = \"mie\"\n"
         );
         std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
         for words in [
-            vec!["material", name, "--wavelength-nm", "800"],
+            vec!["material", name, "--wavelength-nm", &wavelength.to_string()],
             vec!["table", "scene.toml", "-o", "out.h5"],
         ] {
             let (code, message) = gonio(folder.path(), &words);
