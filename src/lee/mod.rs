@@ -16,6 +16,7 @@ pub use sun_filter::{Kernel, SunFilter};
 
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::medium::{Medium, MediumError};
+pub use crate::optics::Polarisation;
 use crate::series::SeriesError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
@@ -67,14 +68,6 @@ pub struct Diagram {
     pub theta: Vec<f64>,
     /// Per radius and angle: XYZ of the parallel and of the perpendicular part.
     pub xyz: Vec<Vec<[[f64; 3]; 2]>>,
-}
-
-/// Light that an observer with or without a filter sees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Polarisation {
-    Total,
-    Parallel,
-    Perpendicular,
 }
 
 /// A drop at one wavelength.

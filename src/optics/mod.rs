@@ -26,7 +26,9 @@
 mod amplitude;
 mod fresnel;
 mod grazing;
+mod polarisation;
 
 pub use amplitude::AmplitudeMatrix;
 pub use fresnel::{Fresnel, curved_from_inside, curved_from_outside, fresnel};
 pub use grazing::Grazing;
+pub use polarisation::Polarisation;
