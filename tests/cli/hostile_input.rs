@@ -1,24 +1,10 @@
 //! Scenes, sweeps, media and flags that mean harm or make no sense: exit code 2, a short message that
 //! names what is wrong, at once, in little memory.
-#![cfg(all(feature = "cli", feature = "hdf5"))]
 
-use assert_cmd::Command;
-use std::path::Path;
-use std::time::Duration;
+use crate::support::gonio;
 
 /// Longest message: a value of a million digits need not be repeated.
 const LONGEST_MESSAGE: usize = 1500;
-
-fn gonio(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let output = Command::cargo_bin("gonio")
-        .unwrap()
-        .args(arguments)
-        .current_dir(folder)
-        .timeout(Duration::from_secs(120))
-        .output()
-        .unwrap();
-    (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&output.stderr).into_owned())
-}
 
 fn scene(key: &str, value: &str) -> String {
     let line =

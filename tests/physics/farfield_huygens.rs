@@ -1,6 +1,7 @@
 //! The brute-force Huygens–Fresnel sum against exact Debye terms of the sphere, and the ray engine
 //! against the sum around the primary bow of a raindrop, where no exact solution exists.
 
+use crate::support::{angles, relative_l2};
 use gonio::farfield::FarFieldSettings;
 use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
@@ -11,25 +12,17 @@ use gonio::trace::Tracer;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
 
-fn angles(from: f64, to: f64, step: f64) -> Vec<f64> {
-    let count = ((to - from) / step).round() as usize;
-    (0..=count).map(|i| (from + i as f64 * step).to_radians()).collect()
-}
-
-fn directions(theta: &[f64], phi: f64) -> Vec<Direction> {
-    theta.iter().map(|&t| Direction::new(t, phi)).collect()
-}
-
 /// Relative L2 error of one element of the amplitude matrix.
 fn l2(
     found: &[AmplitudeMatrix],
     truth: &[AmplitudeMatrix],
     element: fn(&AmplitudeMatrix) -> Complex64,
 ) -> f64 {
-    let error: f64 =
-        found.iter().zip(truth).map(|(f, t)| (element(f) - element(t)).norm_sqr()).sum();
-    let norm: f64 = truth.iter().map(|t| element(t).norm_sqr()).sum();
-    (error / norm).sqrt()
+    relative_l2(found.iter().zip(truth).map(|(f, t)| (element(f), element(t))))
+}
+
+fn directions(theta: &[f64], phi: f64) -> Vec<Direction> {
+    theta.iter().map(|&t| Direction::new(t, phi)).collect()
 }
 
 /// Bright and dark side of the bows; Fresnel's coefficients, and those of a curved surface.

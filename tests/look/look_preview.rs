@@ -1,12 +1,10 @@
 //! The preview of a table: a PNG with its panels filled, and a plain word where one is missing.
 
-mod tables;
-
+use crate::tables::{degrees, lopsided, sphere, visible};
 use gonio::export::strip;
 use gonio::optics::Polarisation;
 use gonio::phase_table::Quantity;
 use gonio::render::preview;
-use tables::{degrees, lopsided, sphere, visible};
 
 /// Colours in a block of the picture, as a share of pixels that are not grey.
 fn coloured(

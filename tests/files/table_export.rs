@@ -1,13 +1,11 @@
 //! Exports: what other programs read has the numbers and signs that they expect.
 
-mod table_support;
-
+use crate::support::{header, mie_table, table};
 use gonio::hdf5::{self, WriteOptions};
 use gonio::phase_table::Quantity;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use table_support::mie_table;
 
 fn export(folder: &Path, table: &str, arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_gonio"))
@@ -227,7 +225,7 @@ fn extinction_per_mass_is_of_the_mean_volume_and_the_medium() {
 fn six_elements_of_particles_that_are_no_spheres() {
     let keep = tempfile::tempdir().unwrap();
     let folder = keep.path();
-    let mut table = table_support::table(table_support::header(2, 181, 5, Quantity::Mueller));
+    let mut table = table(header(2, 181, 5, Quantity::Mueller));
     for slab in &mut table.slabs {
         slab.values.index_axis_mut(ndarray::Axis(0), 5).mapv_inplace(|v| 0.7 * v);
         slab.values.index_axis_mut(ndarray::Axis(0), 15).mapv_inplace(|v| 0.5 * v);

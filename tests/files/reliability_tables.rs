@@ -1,8 +1,7 @@
 //! Files that are cut, damaged, foreign, or interrupted while written: an answer, never a panic,
 //! never half a table under the final name.
 
-mod table_support;
-
+use crate::support::{header, table};
 use gonio::hdf5::{self, TableError, TableReader, WriteOptions};
 use gonio::phase_table::Quantity;
 use std::fs;
@@ -10,7 +9,6 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-use table_support::{header, table};
 
 const SCENE: &str = "[particle]\nshape = \"sphere\"\nradius_um = 60\n\
     medium = { index = [1.333, 0.0] }\n[light]\nwavelengths_nm = { from = 400, to = 700, count = 7 }\n\

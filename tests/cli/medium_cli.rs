@@ -1,5 +1,4 @@
 //! `gonio material` as a user meets it.
-#![cfg(all(feature = "cli", feature = "hdf5"))]
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -2,9 +2,7 @@
 //! whole. The scene is read from `data/scenes/bows`; its profile is taken straight up from the
 //! antisolar point.
 
-mod bows;
-
-use bows::{Peak, WATER, peaks};
+use crate::bows::{Peak, WATER, peaks};
 use gonio::color::{Illuminant, Observer};
 use gonio::lee::{Angles, Beats, Drop, LeeError, Polarisation, Request, diagram};
 use gonio::plan::Plan;

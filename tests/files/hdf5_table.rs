@@ -1,12 +1,10 @@
 //! A table on disk is the table in memory, appears whole or not at all, and equal input gives
 //! equal bytes.
 
-mod table_support;
-
+use crate::support::{header, slab, table};
 use gonio::hdf5::{self, TableError, TableReader, TableWriter, WriteOptions};
 use gonio::phase_table::{PhaseTable, Quantity};
 use std::fs;
-use table_support::{header, slab, table};
 
 fn undated() -> WriteOptions {
     WriteOptions { dated: false, ..WriteOptions::default() }

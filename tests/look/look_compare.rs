@@ -1,13 +1,9 @@
 //! `gonio compare` on scene files: what the report holds, what is refused, and the exit codes.
 
-use assert_cmd::Command;
+use crate::gonio;
 use predicates::prelude::*;
 use serde_json::Value;
 use std::path::PathBuf;
-
-fn gonio() -> Command {
-    Command::cargo_bin("gonio").unwrap()
-}
 
 /// A small drop of water with few angles; `light` and `size` are lines of its scene.
 fn case(size: &str, light: &str) -> (tempfile::TempDir, PathBuf) {

@@ -1,7 +1,6 @@
 //! Airy's theory of the rainbow, and how to read a profile: for tests of Lee diagrams.
 //!
 //! Nothing here uses the program's own physics but the index of water and the observer's curve.
-#![allow(dead_code, reason = "every test crate uses its own share of these helpers")]
 
 use gonio::color::{Illuminant, Observer};
 use gonio::medium::Medium;

@@ -1,12 +1,10 @@
 //! The report of a comparison, opened in headless Chromium: no script error, no network, nothing
 //! wider than the window. Skipped with a message where Chromium is missing.
 
-mod tables;
-
+use crate::tables::{degrees, sphere};
 use gonio::compare::{Case, Entry, OrderPair, measure, page, worst};
 use gonio::phase_table::Quantity;
 use std::process::Command;
-use tables::{degrees, sphere};
 
 fn case() -> Case {
     let table = |radius| sphere(radius, vec![550e-9], degrees(0.0, 180.0, 3601), Quantity::Mueller);

@@ -76,7 +76,7 @@ struct Converted {
 }
 
 fn rows() -> Vec<Row> {
-    let text = include_str!("data/tmatrix_spheroid_m1333.csv");
+    let text = include_str!("../data/tmatrix_spheroid_m1333.csv");
     let row = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
         let number = |i: usize| cells[i].parse::<f64>().ok();

@@ -4,8 +4,7 @@
 //! `GONIO_FUZZ=1000000` sets how many inputs each reader gets (a few thousand by default),
 //! `GONIO_FUZZ_SEED` the sequence. An input that fails is kept and named.
 
-mod table_support;
-
+use crate::support::{header, table};
 use gonio::batch::{BatchPlan, Sweep};
 use gonio::hdf5::{self, AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter};
 use gonio::medium::MediumSpec;
@@ -17,14 +16,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
-use table_support::{header, table};
 
 /// No input may take more of the processor's time, nor (asleep, or on a busy machine) more than ten
 /// times as long.
 const LONGEST: Duration = Duration::from_secs(20);
 
-const SCENE: &str = include_str!("../data/scenes/raindrop.toml");
-const SPHEROID: &str = include_str!("../data/scenes/spheroid.toml");
+const SCENE: &str = include_str!("../../data/scenes/raindrop.toml");
+const SPHEROID: &str = include_str!("../../data/scenes/spheroid.toml");
 const SWEEP: &str = "[particle]\nshape = \"sphere\"\nradius_um = { from = 30, to = 120, count = 3 }\n\
     medium = [\"water\", { index = [1.333, 0.0] }]\n[light]\nsun_elevation_deg = [0, 10, 20]\n\
     wavelengths_nm = { from = 400, to = 700, count = 7 }\n[table]\nquantity = \"mueller\"\n\
@@ -315,7 +313,7 @@ fn tables() {
         write("phase.h5", header(1, 5, 1, Quantity::PhaseFunction)),
         sweep_file(folder.path()),
         // A table opened and saved again by xarray: attributes are strings of any length.
-        include_bytes!("data/tables/resaved_h5netcdf.h5").to_vec(),
+        include_bytes!("../data/tables/resaved_h5netcdf.h5").to_vec(),
     ];
     fuzz("table", 4000, "table.h5", &seeds, |path, _| {
         let table = hdf5::read(path).is_ok();

@@ -1,6 +1,7 @@
 //! The ray engine against exact solutions of the sphere: single orders against Debye terms, the
 //! whole against Lorenz–Mie. Bounds stand just above what was measured.
 
+use crate::support::{angles, relative_l2};
 use gonio::farfield::FarField;
 use gonio::farfield::FarFieldSettings;
 use gonio::optics::AmplitudeMatrix;
@@ -9,11 +10,6 @@ use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::Shape;
 use gonio::trace::Tracer;
 use num_complex::Complex64;
-
-fn angles(from: f64, to: f64, step: f64) -> Vec<f64> {
-    let count = ((to - from) / step).round() as usize;
-    (0..=count).map(|i| (from + i as f64 * step).to_radians()).collect()
-}
 
 /// Amplitudes of the ray engine on a sphere, all at one azimuth.
 fn rays(
@@ -51,20 +47,11 @@ fn rays_of(
     far_field.scatter(&directions, diffraction)
 }
 
-fn l2(found: impl Iterator<Item = Complex64>, exact: impl Iterator<Item = Complex64>) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    for (f, e) in found.zip(exact) {
-        error += (f - e).norm_sqr();
-        norm += e.norm_sqr();
-    }
-    (error / norm).sqrt()
-}
-
 /// Relative errors of S1 and S2.
 fn errors(found: &[AmplitudeMatrix], exact: &[(Complex64, Complex64)]) -> [f64; 2] {
     [
-        l2(found.iter().map(|s| s.s1), exact.iter().map(|e| e.0)),
-        l2(found.iter().map(|s| s.s2), exact.iter().map(|e| e.1)),
+        relative_l2(found.iter().zip(exact).map(|(s, e)| (s.s1, e.0))),
+        relative_l2(found.iter().zip(exact).map(|(s, e)| (s.s2, e.1))),
     ]
 }
 
@@ -178,9 +165,11 @@ fn all_orders_against_lorenz_mie() {
         let found = rays(x, m, &orders, true, &theta);
         let exact = Sphere::new(x, m).unwrap().amplitudes(&theta);
         let real = |v: f64| Complex64::new(v, 0.0);
-        let error = l2(
-            found.iter().map(|s| real(2.0 * s.s11())),
-            exact.iter().map(|e| real(e.0.norm_sqr() + e.1.norm_sqr())),
+        let error = relative_l2(
+            found
+                .iter()
+                .zip(&exact)
+                .map(|(s, e)| (real(2.0 * s.s11()), real(e.0.norm_sqr() + e.1.norm_sqr()))),
         );
         println!("x = {x}, {from}–{to}°: {:.3} %", 100.0 * error);
         assert!(error <= bound, "x = {x}, {from}–{to}: {error}");

@@ -2,9 +2,7 @@
 //! 37, 1506) and Laven (philiplaven.com/p5.html, on the same diagram) say where colours go and
 //! supernumeraries fade.
 
-mod bows;
-
-use bows::{
+use crate::bows::{
     AIRY_MAXIMA, GREEN, WATER, airy_luminance, airy_scale, bow, descartes, first_contrast, peaks,
 };
 use gonio::color::{Illuminant, Observer, illuminant_white, lab};

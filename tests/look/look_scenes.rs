@@ -1,12 +1,8 @@
 //! The shipped scenes of rainbows, and what `gonio render` and `gonio lee` say to bad input.
 
-use assert_cmd::Command;
+use crate::gonio;
 use predicates::prelude::*;
 use std::path::{Path, PathBuf};
-
-fn gonio() -> Command {
-    Command::cargo_bin("gonio").unwrap()
-}
 
 fn scenes() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/bows");

@@ -1,16 +1,7 @@
 //! Bad input of the exact series and of media from a user's side: the message names the flag or
 //! the file and line, the exit code is 2, nothing is written.
-#![cfg(all(feature = "cli", feature = "hdf5"))]
 
-use assert_cmd::Command;
-use std::path::Path;
-
-fn gonio(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let output =
-        Command::cargo_bin("gonio").unwrap().current_dir(folder).args(arguments).output().unwrap();
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    (output.status.code().unwrap_or(-1), text)
-}
+use crate::support::gonio;
 
 /// NaN, x ≤ 0, k < 0, more terms than memory, for both series.
 #[test]

@@ -10,7 +10,7 @@ use gonio::color::{
 use serde_json::Value;
 
 fn checks() -> Value {
-    let text = include_str!("data/cie_check_values.json");
+    let text = include_str!("../data/cie_check_values.json");
     serde_json::from_str::<Value>(text).unwrap()["checks"].clone()
 }
 
@@ -62,7 +62,7 @@ fn whites_are_those_of_the_reference() {
 }
 
 fn patch(name: &str) -> (Vec<f64>, Vec<f64>) {
-    let text = include_str!("data/colorchecker_ohta_reflectance.csv");
+    let text = include_str!("../data/colorchecker_ohta_reflectance.csv");
     let mut lines = text.lines().filter(|l| !l.starts_with('#'));
     let column = lines.next().unwrap().split(',').position(|c| c == name).unwrap();
     lines

@@ -1,24 +1,12 @@
 //! The Debye series against multiple-precision references, and its sum against Lorenz–Mie.
 
+use crate::support::{numbers, relative_l2};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::lorenz_mie::Sphere;
 use num_complex::Complex64;
 use serde_json::Value;
 
-const HIGH_PRECISION: &str = include_str!("data/debye_high_precision.json");
-
-fn numbers(case: &Value, key: &str) -> Vec<f64> {
-    case[key].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-}
-
-fn relative_l2(pairs: &[(Complex64, Complex64)]) -> f64 {
-    let (mut error, mut norm) = (0.0, 0.0);
-    for (got, exact) in pairs {
-        error += (got - exact).norm_sqr();
-        norm += exact.norm_sqr();
-    }
-    (error / norm).sqrt()
-}
+const HIGH_PRECISION: &str = include_str!("../data/debye_high_precision.json");
 
 #[test]
 fn every_term_against_high_precision() {
@@ -42,7 +30,7 @@ fn every_term_against_high_precision() {
                         (if pick == 0 { g.0 } else { g.1 }, Complex64::new(*re, im))
                     })
                     .collect();
-                let error = relative_l2(&pairs);
+                let error = relative_l2(pairs);
                 println!("x {} m {m} p {p} {which}: {error:.1e}", number("x"));
                 assert!(error <= 1e-9, "x {} m {m} p {p} {which}: {error:e}", number("x"));
             }
@@ -76,7 +64,7 @@ fn closed_sum_is_mie() {
                 .skip(5) // the forward peak would hide everything else
                 .map(|(d, m)| if pick == 0 { (d.0, m.0) } else { (d.1, m.1) })
                 .collect();
-            let error = relative_l2(&pairs);
+            let error = relative_l2(pairs);
             println!("x {x} m {m} S{}: {error:.1e}", pick + 1);
             assert!(error <= bound, "x {x} m {m} S{}: {error:e}", pick + 1);
         }
@@ -102,7 +90,7 @@ fn two_hundred_orders_reach_mie_where_the_remainder_says_so() {
         let sum = series.sum(&terms, &theta);
         let mie = Sphere::new(x, m).unwrap().amplitudes(&theta);
         let pairs: Vec<_> = sum.iter().zip(&mie).skip(5).map(|(d, m)| (d.0, m.0)).collect();
-        let (error, remainder) = (relative_l2(&pairs), series.remainder(200));
+        let (error, remainder) = (relative_l2(pairs), series.remainder(200));
         println!("x {x} m {m}: L2 {error:.1e}, largest remainder of a coefficient {remainder:.1e}");
         assert_eq!(error <= 1e-6, converges, "x {x} m {m}: {error:e}");
     }

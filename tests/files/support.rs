@@ -1,5 +1,4 @@
 //! Tables made up for tests: smooth, normalised, different in every slab.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use gonio::phase_table::{
     Averaging, Axes, Bodies, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,

@@ -1,5 +1,4 @@
 //! Tables for tests: spheres by Lorenz–Mie, made with nothing but the series.
-#![allow(dead_code, reason = "every test crate uses its own share of these helpers")]
 
 use gonio::medium::Medium;
 use gonio::phase_table::{

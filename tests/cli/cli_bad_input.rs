@@ -1,5 +1,4 @@
 //! Bad input from a user's side: the message, the exit code, and nothing half-written.
-#![cfg(all(feature = "cli", feature = "hdf5"))]
 
 use assert_cmd::Command;
 use std::path::Path;

@@ -1,16 +1,12 @@
 //! `gonio lee` from outside: where raindrops stop being spheres nothing jumps, and media are named
 //! as in a scene.
 
-use assert_cmd::Command;
+use crate::gonio;
 use gonio::color::{
     Illuminant, Observer, delta_e_2000, illuminant_white, lab, srgb_to_xyz, to_srgb,
 };
 use predicates::prelude::*;
 use serde_json::Value;
-
-fn gonio() -> Command {
-    Command::cargo_bin("gonio").unwrap()
-}
 
 /// The colours of a diagram's columns, sRGB.
 fn colours(flags: &[&str]) -> Vec<Vec<[u8; 3]>> {

@@ -356,7 +356,7 @@ fn mode(mode: &serde_json::Value) -> (f64, SizeDistribution, Complex64) {
 /// another quadrature: cross-sections and g to 1e-5, P11 and S12/S11 to 1e-3.
 #[test]
 fn reference_populations() {
-    let text = include_str!("data/population_reference.json");
+    let text = include_str!("../data/population_reference.json");
     let reference: serde_json::Value = serde_json::from_str(text).unwrap();
     let cases = reference["cases"].as_object().unwrap();
     assert_eq!(cases.len(), 5);

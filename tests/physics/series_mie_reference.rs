@@ -2,23 +2,20 @@
 //! Provenance of every file is in its header line; `tests/data/mie_high_precision.json` was made
 //! with MPFR at 448 bits.
 
+use crate::support::numbers;
 use gonio::series::lorenz_mie::Sphere;
 use num_complex::Complex64;
 use serde_json::Value;
 
-const HIGH_PRECISION: &str = include_str!("data/mie_high_precision.json");
+const HIGH_PRECISION: &str = include_str!("../data/mie_high_precision.json");
 /// Made by `tools/mie_reference.py` (MPFR, 400 bits): x = 1e-4, 1e-2, 1e4, 5e4.
-const EXTREMES: &str = include_str!("data/mie_large.json");
-const WISCOMBE_EFFICIENCIES: &str = include_str!("data/mie_wiscombe_efficiencies.csv");
-const WISCOMBE_AMPLITUDES: &str = include_str!("data/mie_wiscombe_amplitudes.csv");
-const WISCOMBE_OLD: &str = include_str!("data/mie_wiscombe_old_amplitudes.csv");
-const DU: &str = include_str!("data/mie_du_2004.csv");
-const BOHREN_HUFFMAN: &str = include_str!("data/mie_bohren_huffman_example.csv");
-const LARGE_X: &str = include_str!("data/mie_large_x_three_codes.csv");
-
-fn numbers(case: &Value, key: &str) -> Vec<f64> {
-    case[key].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-}
+const EXTREMES: &str = include_str!("../data/mie_large.json");
+const WISCOMBE_EFFICIENCIES: &str = include_str!("../data/mie_wiscombe_efficiencies.csv");
+const WISCOMBE_AMPLITUDES: &str = include_str!("../data/mie_wiscombe_amplitudes.csv");
+const WISCOMBE_OLD: &str = include_str!("../data/mie_wiscombe_old_amplitudes.csv");
+const DU: &str = include_str!("../data/mie_du_2004.csv");
+const BOHREN_HUFFMAN: &str = include_str!("../data/mie_bohren_huffman_example.csv");
+const LARGE_X: &str = include_str!("../data/mie_large_x_three_codes.csv");
 
 fn number(case: &Value, key: &str) -> f64 {
     case[key].as_f64().unwrap()
