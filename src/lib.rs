@@ -12,6 +12,7 @@
 //! `compare`, `render` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`, `color`,
 //! `size_distribution` · `math`, `pending_file`.
 
+pub mod fault;
 pub mod math;
 pub mod pending_file;
 
@@ -25,11 +26,9 @@ pub mod phase_table;
 pub mod scene;
 pub mod trace;
 
-pub mod compare;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 pub mod plan;
-pub mod render;
 pub mod series;
 
 #[cfg(feature = "hdf5")]
@@ -43,3 +42,8 @@ pub mod simulate;
 #[cfg(feature = "hdf5")]
 pub mod batch;
 pub mod lee;
+pub mod scatter;
+
+pub mod render;
+
+pub mod compare;

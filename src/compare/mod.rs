@@ -17,6 +17,7 @@ pub use curve::Curve;
 pub use energy::EnergyReport;
 pub use maxima::{Maxima, Maximum};
 
+use crate::fault::{Blame, Fault};
 use crate::phase_table::PhaseTable;
 use curve::nearest;
 use serde::Serialize;
@@ -26,6 +27,12 @@ use serde::Serialize;
 pub enum CompareError {
     #[error("{what}: {left} and {right} have nothing in common to compare")]
     Disjoint { what: &'static str, left: String, right: String },
+}
+
+impl Blame for CompareError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// A table with its name and what it cost.

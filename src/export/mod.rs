@@ -25,6 +25,7 @@ pub mod size_grid;
 pub mod strip;
 
 use crate::color::ColorError;
+use crate::fault::{Blame, Fault};
 use crate::hdf5::TableError;
 
 /// What went wrong with an export.
@@ -40,13 +41,12 @@ pub enum ExportError {
     Table(#[from] TableError),
 }
 
-impl ExportError {
-    /// True where the caller's input is wrong.
-    pub fn is_wrong_input(&self) -> bool {
+impl Blame for ExportError {
+    fn fault(&self) -> Fault {
         match self {
-            ExportError::Invalid { .. } | ExportError::Color(_) => true,
-            ExportError::Table(error) => error.is_wrong_input(),
-            ExportError::Png(_) => false,
+            ExportError::Invalid { .. } | ExportError::Color(_) => Fault::Input,
+            ExportError::Table(error) => error.fault(),
+            ExportError::Png(_) => Fault::Run,
         }
     }
 }

@@ -47,6 +47,7 @@ pub use spec::{MediumSpec, NamedSpec};
 pub use table::Table;
 pub use unit::Unit;
 
+use crate::fault::{Blame, Fault};
 use crate::math::digits::to_digits;
 use num_complex::Complex64;
 use std::path::PathBuf;
@@ -70,6 +71,12 @@ pub enum MediumError {
         nearest.as_ref().map(|n| format!(", did you mean \"{n}\"?")).unwrap_or_default()
     )]
     Unknown { name: String, nearest: Option<String> },
+}
+
+impl Blame for MediumError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// A medium, ready to be asked for its index. A closed set: one arm per kind, one file per kind.

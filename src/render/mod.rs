@@ -25,6 +25,7 @@ pub use picture::{Picture, write_complete};
 pub use sun_smoothing::smooth_over_sun;
 pub use tristimulus::{Tristimulus, rotational_xyz};
 
+use crate::fault::{Blame, Fault};
 use crate::color::ColorError;
 use std::path::PathBuf;
 
@@ -39,6 +40,15 @@ pub enum RenderError {
     Drawing(String),
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
+}
+
+impl Blame for RenderError {
+    fn fault(&self) -> Fault {
+        match self {
+            RenderError::Color(_) | RenderError::Invalid { .. } => Fault::Input,
+            RenderError::Write { .. } | RenderError::Drawing(_) => Fault::Run,
+        }
+    }
 }
 
 impl<E: std::error::Error + Send + Sync> From<plotters::drawing::DrawingAreaErrorKind<E>>
