@@ -1,6 +1,7 @@
 //! `gonio export`: tables for other programs.
 
 use super::UsageError;
+use super::polarisation::PolarisationFlag;
 use clap::{Args, ValueEnum};
 use gonio::export::average::{Averaged, average};
 use gonio::export::notes::{density_note, notes};
@@ -8,6 +9,7 @@ use gonio::export::sasktran2::SizeDimension;
 use gonio::export::size_grid::SizeGrid;
 use gonio::export::{csv, eradiate, exr, libradtran, mitsuba, sasktran2, strip};
 use gonio::hdf5::{self, AxisValues, SweepReader, TableError, position_of, write_netcdf};
+use gonio::optics::Polarisation;
 use gonio::pending_file::write_whole;
 use gonio::phase_table::PhaseTable;
 use std::f64::consts::TAU;
@@ -41,7 +43,7 @@ enum Format {
 The forward peak is cut below --cap-deg; what was cut counts as unscattered and its share is
 recorded. Give --cap-deg 0 to keep it. Particles that are no spheres have six elements (11, 12, 22, 33,
 34, 44) for Eradiate, libRadtran, sasktran2 and csv, mean over azimuth; mitsuba, exr and strip take
-unpolarised light (element 11). libRadtran's extinction is per mass and needs the medium's density.")]
+unpolarised light (element 11; exr and strip with --polarisation also what a filter lets through). libRadtran's extinction is per mass and needs the medium's density.")]
 pub struct ExportArgs {
     /// Table
     #[arg(value_name = "FILE.h5")]
@@ -58,34 +60,39 @@ pub struct ExportArgs {
     /// Cut the forward peak below this scattering angle
     #[arg(long, value_name = "DEG", default_value_t = 3.0, allow_negative_numbers = true)]
     cap_deg: f64,
-    /// Legendre moments per element
-    #[arg(long, value_name = "N", default_value_t = 384)]
-    moments: u16,
+    /// Legendre moments per element (eradiate, sasktran2, libradtran) [default: 384]
+    #[arg(long, value_name = "N")]
+    moments: Option<u16>,
     /// Density of the medium, in place of the table's (libradtran: extinction per mass)
     #[arg(long, value_name = "KG_M3", allow_negative_numbers = true)]
     density_kg_m3: Option<f64>,
-    /// Azimuth of the colour strip
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
-    azimuth_deg: f64,
-    /// Scattering angles of the colour strip
-    #[arg(long, value_name = "FROM:TO", default_value = "120:150", value_parser = parse_range)]
-    theta_deg: (f64, f64),
-    /// Radius of the OpenEXR map about the antisolar point
-    #[arg(long, value_name = "DEG", default_value_t = 60.0)]
-    radius_deg: f64,
-    /// Pixels: width of the strip, side of the map
-    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(2..=16384))]
-    size: u32,
-    /// Values per curve of a Mitsuba tabphase string
-    #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
-    samples: u32,
+    /// Azimuth of the colour strip [default: 0]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    azimuth_deg: Option<f64>,
+    /// Scattering angles of the colour strip [default: 120:150]
+    #[arg(long, value_name = "FROM:TO", value_parser = parse_range)]
+    theta_deg: Option<(f64, f64)>,
+    /// Light of the strip or map seen through no filter, or one along or across the scattering plane
+    #[arg(long, value_enum)]
+    polarisation: Option<PolarisationFlag>,
+    /// Radius of the OpenEXR map about the antisolar point [default: 60]
+    #[arg(long, value_name = "DEG")]
+    radius_deg: Option<f64>,
+    /// Pixels: width of the strip, side of the map [default: 1024]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=16384))]
+    size: Option<u32>,
+    /// Values per curve of a Mitsuba tabphase string [default: 4096]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    samples: Option<u32>,
 }
 
 pub fn run(args: ExportArgs) -> anyhow::Result<()> {
     if !args.file.exists() {
         return Err(UsageError(format!("{}: no such file", args.file.display())).into());
     }
-    if args.moments == 0 {
+    without_strangers(&args)?;
+    let moments = args.moments.unwrap_or(384);
+    if moments == 0 {
         return Err(UsageError("--moments 0: at least 1".into()).into());
     }
     let output = args.output.clone().unwrap_or_else(|| default_output(&args));
@@ -95,11 +102,15 @@ pub fn run(args: ExportArgs) -> anyhow::Result<()> {
     let Source { tables, sizes } = read(&args)?;
     let table = &tables[0];
     let cap = args.cap_deg.to_radians();
-    let moments = usize::from(args.moments);
-    note_on_moments(&args, &tables);
+    note_on_moments(&args, &tables, moments);
+    let moments = usize::from(moments);
     note_on_tables(&args, &tables);
+    let seen = args.polarisation.map_or(Polarisation::Total, Polarisation::from);
+    let size = args.size.unwrap_or(1024);
     match args.to {
-        Format::Mitsuba => write_mitsuba(table, &average(table, cap)?, &output, args.samples)?,
+        Format::Mitsuba => {
+            write_mitsuba(table, &average(table, cap)?, &output, args.samples.unwrap_or(4096))?
+        }
         Format::Eradiate | Format::Libradtran => {
             let grid = SizeGrid::new(tables)?;
             let averaged =
@@ -120,26 +131,56 @@ pub fn run(args: ExportArgs) -> anyhow::Result<()> {
         Format::Csv => save(&output, csv::averaged(table, &average(table, cap)?).as_bytes())?,
         Format::CsvFull => save(&output, csv::every_sample(table).as_bytes())?,
         Format::Exr => {
-            if !(args.radius_deg > 0.0 && args.radius_deg <= 180.0) {
-                let message = format!("--radius-deg {}: above 0 to 180", args.radius_deg);
+            let radius = args.radius_deg.unwrap_or(60.0);
+            if !(radius > 0.0 && radius <= 180.0) {
+                let message = format!("--radius-deg {radius}: above 0 to 180");
                 return Err(UsageError(message).into());
             }
-            save(&output, &exr::antisolar_map(table, args.size, args.radius_deg.to_radians())?)?;
+            save(&output, &exr::antisolar_map(table, seen, size, radius.to_radians())?)?;
         }
         Format::Strip => {
-            let (from, to) = args.theta_deg;
+            let (from, to) = args.theta_deg.unwrap_or((120.0, 150.0));
             let range = (from.to_radians(), to.to_radians());
-            let size = (args.size, (args.size / 16).max(16));
-            save(&output, &strip::png(table, args.azimuth_deg.to_radians(), range, size)?)?;
+            let size = (size, (size / 16).max(16));
+            let azimuth = args.azimuth_deg.unwrap_or(0.0).to_radians();
+            save(&output, &strip::png(table, azimuth, seen, range, size)?)?;
         }
     }
     println!("{}", output.display());
     Ok(())
 }
 
+/// Refuse flags that the format has no use for: who gives one expects an effect.
+fn without_strangers(args: &ExportArgs) -> Result<(), UsageError> {
+    use Format::{Eradiate, Exr, Libradtran, Mitsuba, Sasktran2, Strip};
+    let strangers: [(&str, bool, &[Format]); 8] = [
+        ("--moments", args.moments.is_some(), &[Eradiate, Sasktran2, Libradtran]),
+        ("--density-kg-m3", args.density_kg_m3.is_some(), &[Eradiate, Sasktran2, Libradtran]),
+        ("--azimuth-deg", args.azimuth_deg.is_some(), &[Strip]),
+        ("--theta-deg", args.theta_deg.is_some(), &[Strip]),
+        ("--polarisation", args.polarisation.is_some(), &[Strip, Exr]),
+        ("--radius-deg", args.radius_deg.is_some(), &[Exr]),
+        ("--size", args.size.is_some(), &[Strip, Exr]),
+        ("--samples", args.samples.is_some(), &[Mitsuba]),
+    ];
+    let name = |format: &Format| {
+        format.to_possible_value().map_or(String::new(), |value| value.get_name().to_string())
+    };
+    for (flag, given, formats) in strangers {
+        if given && !formats.contains(&args.to) {
+            let formats: Vec<String> = formats.iter().map(name).collect();
+            let formats = formats.join(", ");
+            let message =
+                format!("{flag}: --to {} does not use it, only {formats}", name(&args.to));
+            return Err(UsageError(message));
+        }
+    }
+    Ok(())
+}
+
 /// The scattering matrix of a sphere of size parameter x has 2x moments and a few more; with fewer the
 /// series rings at the dark angles. Say so rather than let a user find out.
-fn note_on_moments(args: &ExportArgs, tables: &[PhaseTable]) {
+fn note_on_moments(args: &ExportArgs, tables: &[PhaseTable], moments: u16) {
     if !matches!(args.to, Format::Eradiate | Format::Sasktran2 | Format::Libradtran) {
         return;
     }
@@ -149,12 +190,12 @@ fn note_on_moments(args: &ExportArgs, tables: &[PhaseTable]) {
     };
     let size_parameter = tables.iter().map(largest).fold(0.0, f64::max);
     let whole = 2.0 * size_parameter + 16.0;
-    if f64::from(args.moments) < whole {
+    if f64::from(moments) < whole {
         eprintln!(
             "note: {} Legendre moments; size parameter {size_parameter:.0} has about {whole:.0}. With \
              fewer the series is off by tens of per cent at the dark angles (--moments; with all of \
              them --cap-deg 0 is exact)",
-            args.moments
+            moments
         );
     }
 }

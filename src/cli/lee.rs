@@ -6,8 +6,9 @@ mod picture;
 mod ranges;
 
 use super::UsageError;
+use super::polarisation::PolarisationFlag;
 use clap::{Args, ValueEnum};
-use gonio::lee::{Polarisation, Request, column_exposures};
+use gonio::lee::{Request, column_exposures};
 use gonio::medium::MediumSpec;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -46,7 +47,7 @@ pub struct LeeArgs {
     azimuth_deg: f64,
     /// Light seen through no filter, or one along or across the scattering plane
     #[arg(long, value_enum, default_value = "total")]
-    polarisation: LeePolarisation,
+    polarisation: PolarisationFlag,
     /// A point instead of the sun's disc of 0.53°
     #[arg(long)]
     no_sun_disc: bool,
@@ -76,13 +77,6 @@ enum LeeShape {
     Raindrop,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum LeePolarisation {
-    Total,
-    Parallel,
-    Perpendicular,
-}
-
 /// Luminance of the brightest angle of each column.
 const PEAK: f64 = 0.8;
 
@@ -98,12 +92,7 @@ pub fn run(args: LeeArgs) -> anyhow::Result<()> {
     let start = Instant::now();
     let diagram = columns::columns(&args, &request)?;
     let seconds = start.elapsed().as_secs_f64();
-    let polarisation = match args.polarisation {
-        LeePolarisation::Total => Polarisation::Total,
-        LeePolarisation::Parallel => Polarisation::Parallel,
-        LeePolarisation::Perpendicular => Polarisation::Perpendicular,
-    };
-    let seen = diagram.seen(polarisation);
+    let seen = diagram.seen(args.polarisation.into());
     let exposure = column_exposures(&seen, PEAK);
     if let Some(path) = &args.output {
         picture::draw(&args, &request, &seen, &exposure, path)?;

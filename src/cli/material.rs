@@ -58,7 +58,7 @@ pub struct MaterialArgs {
     from_abbe: Option<Abbe>,
     /// Lines that the Abbe number is taken at
     #[arg(long, value_name = "LINE", default_value = "d", value_parser = parse_lines,
-          requires = "from_abbe")]
+          requires = "from_abbe", conflicts_with_all = ["name", "list", "kramers_kronig"])]
     abbe_line: AbbeLines,
     /// n from the k in FILE.csv (or k from its n, with --inverse)
     #[arg(long, value_name = "FILE")]

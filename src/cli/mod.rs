@@ -14,6 +14,7 @@ mod memory;
 mod notes;
 mod plan;
 mod plot;
+mod polarisation;
 mod progress;
 mod rays;
 mod render;

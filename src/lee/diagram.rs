@@ -1,6 +1,7 @@
 //! The finished diagram, and how it is looked at: through a filter, with an exposure, as colours.
 
 use crate::color::to_srgb;
+use crate::optics::Polarisation;
 
 /// The diagram: XYZ of the differential cross-section over the geometrical one, sr⁻¹.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,14 +12,6 @@ pub struct Diagram {
     pub theta: Vec<f64>,
     /// Per radius and angle: XYZ of the parallel and of the perpendicular part.
     pub xyz: Vec<Vec<[[f64; 3]; 2]>>,
-}
-
-/// Light that an observer with or without a filter sees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Polarisation {
-    Total,
-    Parallel,
-    Perpendicular,
 }
 
 impl Diagram {

@@ -17,7 +17,8 @@ mod sun_filter;
 mod wavelengths;
 
 pub use columns::{Bodies, columns};
-pub use diagram::{Diagram, Polarisation, column_exposures, srgb};
+pub use crate::optics::Polarisation;
+pub use diagram::{Diagram, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::{Band, Beats, Sampling, SamplingNeed};
 pub use sun_filter::{Kernel, SunFilter};

@@ -1,7 +1,7 @@
 //! The diagram as a picture: what its title says, and the bows of ray optics beside it.
 
 use super::columns::HIGHEST_ORDER;
-use super::{LeeArgs, LeePolarisation, LeeShape};
+use super::{LeeArgs, LeeShape, PolarisationFlag};
 use gonio::lee::Request;
 use gonio::medium::Medium;
 use gonio::render::ColorDiagram;
@@ -30,9 +30,9 @@ pub fn draw(
         ),
     };
     let light = match args.polarisation {
-        LeePolarisation::Total => "all polarisations",
-        LeePolarisation::Parallel => "polarised along the scattering plane",
-        LeePolarisation::Perpendicular => "polarised across the scattering plane",
+        PolarisationFlag::Total => "all polarisations",
+        PolarisationFlag::Parallel => "polarised along the scattering plane",
+        PolarisationFlag::Perpendicular => "polarised across the scattering plane",
     };
     let disc = if request.sun_disc { "sun's disc 0.53°" } else { "point source" };
     let spread = if request.size_spread > 0.0 {

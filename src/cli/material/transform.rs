@@ -11,22 +11,30 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 
+/// What else there is to ask: none of it goes with a transform. Said of each flag by itself, since clap
+/// drops what an argument requires where that conflicts with another that is given.
+const OTHERS: [&str; 3] = ["name", "list", "from_abbe"];
+
 #[derive(Args, Clone, Debug)]
 pub(super) struct TransformArgs {
     /// Index without the bands: a number or a material
-    #[arg(long, value_name = "N|NAME", requires = "kramers_kronig")]
+    #[arg(long, value_name = "N|NAME", requires = "kramers_kronig",
+          conflicts_with_all = OTHERS)]
     background: Option<String>,
     /// How the integral is done
-    #[arg(long, value_enum, default_value_t = Method::Analytic, requires = "kramers_kronig")]
+    #[arg(long, value_enum, default_value_t = Method::Analytic, requires = "kramers_kronig",
+          conflicts_with_all = OTHERS)]
     method: Method,
     /// What k does beyond the ends of the data
-    #[arg(long, value_enum, default_value_t = TailsName::Taper, requires = "kramers_kronig")]
+    #[arg(long, value_enum, default_value_t = TailsName::Taper, requires = "kramers_kronig",
+          conflicts_with_all = OTHERS)]
     tails: TailsName,
     /// From n to k instead
-    #[arg(long, requires = "kramers_kronig")]
+    #[arg(long, requires = "kramers_kronig",
+          conflicts_with_all = OTHERS)]
     inverse: bool,
     /// Print a k below zero too, which no passive material has
-    #[arg(long, requires = "inverse")]
+    #[arg(long, requires = "inverse", conflicts_with_all = OTHERS)]
     allow_negative_k: bool,
 }
 
