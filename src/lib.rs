@@ -8,9 +8,9 @@
 //! [`phase_table`] is what all computation produces and all output reads.
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `lee`, `batch` · `simulate` · `tabulate` · `farfield` · `plan`, `series`, `export` · `hdf5`,
-//! `compare`, `render` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`, `color`,
-//! `size_distribution` · `math`, `pending_file`.
+//! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `tabulate` · `farfield` ·
+//! `plan`, `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`,
+//! `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
 
 pub mod fault;
 pub mod math;

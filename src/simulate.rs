@@ -4,10 +4,10 @@
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 
-use crate::fault::{Blame, Fault};
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{

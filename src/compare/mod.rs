@@ -1,16 +1,21 @@
 //! How far one table is from another: numbers by angular band and polarisation, shifts of maxima,
 //! energy, and a page to look at ([`page`]).
 //!
+//! Where the tables come from is no matter; [`against_mie`] computes those of spheres by every method, and
+//! [`speed`] measures what an error costs in time.
+//!
 //! Errors are taken over all wavelengths and azimuths that the tables share; curves and maxima at
 //! the first azimuth of each table and at the wavelength of the middle of the reference, which is
 //! interpolated at the angles of the other.
 
+pub mod against_mie;
 mod bands;
 mod charts;
 mod curve;
 mod energy;
 mod maxima;
 pub mod page;
+pub mod speed;
 
 pub use bands::{BANDS, BandReport};
 pub use curve::Curve;

@@ -22,17 +22,21 @@ pub mod mitsuba;
 pub mod notes;
 pub mod sasktran2;
 pub mod size_grid;
+pub mod source;
 pub mod strip;
 
 use crate::color::ColorError;
 use crate::fault::{Blame, Fault};
 use crate::hdf5::TableError;
+use std::path::PathBuf;
 
 /// What went wrong with an export.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
+    #[error("{}: a sweep; {why}", path.display())]
+    Sweep { path: PathBuf, why: String },
     #[error("colours: {0}")]
     Color(#[from] ColorError),
     #[error("picture: {0}")]
@@ -44,7 +48,9 @@ pub enum ExportError {
 impl Blame for ExportError {
     fn fault(&self) -> Fault {
         match self {
-            ExportError::Invalid { .. } | ExportError::Color(_) => Fault::Input,
+            ExportError::Invalid { .. } | ExportError::Sweep { .. } | ExportError::Color(_) => {
+                Fault::Input
+            }
             ExportError::Table(error) => error.fault(),
             ExportError::Png(_) => Fault::Run,
         }

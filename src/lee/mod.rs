@@ -16,8 +16,8 @@ mod sampling;
 mod sun_filter;
 mod wavelengths;
 
-pub use columns::{Bodies, columns};
 pub use crate::optics::Polarisation;
+pub use columns::{Bodies, columns};
 pub use diagram::{Diagram, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::{Band, Beats, Sampling, SamplingNeed};
@@ -31,10 +31,11 @@ use crate::scene::SceneError;
 use crate::series::SeriesError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
+use crate::size_distribution::log_normal_sample;
 use about_axis::{Axis, Samples, Stimuli};
 use num_complex::Complex64;
 use rayon::prelude::*;
-use sampling::{AXIS_LIMIT, GOLDEN, TRANSITION, grid};
+use sampling::{AXIS_LIMIT, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
@@ -205,7 +206,7 @@ where
                 let drop = |i: usize| {
                     let wavelength = sampling.wavelengths[i];
                     let index = request.medium.index(wavelength)?;
-                    let radius = size_of(radius, request.size_spread, i);
+                    let radius = log_normal_sample(radius, request.size_spread, i);
                     Ok(Drop { radius, wavelength, index })
                 };
                 let drops: Vec<Drop> =
@@ -281,28 +282,6 @@ impl Request {
             fineness: self.fineness,
         }
     }
-}
-
-/// The size of the i-th sample of a log-normal distribution about `radius`. Samples are equally
-/// likely and spread by the golden ratio over the quantiles, so that neighbouring wavelengths see
-/// different sizes and their mean sees all.
-fn size_of(radius: f64, spread: f64, i: usize) -> f64 {
-    if spread <= 0.0 {
-        return radius;
-    }
-    let quantile = ((i as f64 + 0.5) * GOLDEN).fract().clamp(1e-4, 1.0 - 1e-4);
-    radius * (spread * normal_quantile(quantile)).exp()
-}
-
-/// Inverse of the normal distribution by bisection of the error function.
-fn normal_quantile(quantile: f64) -> f64 {
-    let (mut low, mut high) = (-6.0, 6.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        let below = 0.5 * libm::erfc(-middle / std::f64::consts::SQRT_2);
-        if below < quantile { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
 
 fn check(request: &Request, beats: Beats) -> Result<(), LeeError> {

@@ -35,11 +35,7 @@ impl Raindrops {
     ///
     /// # Errors
     /// A sun that is nowhere, or a medium without data in the visible.
-    pub fn new(
-        medium: MediumSpec,
-        sun_elevation_deg: f64,
-        azimuth: f64,
-    ) -> Result<Self, LeeError> {
+    pub fn new(medium: MediumSpec, sun_elevation_deg: f64, azimuth: f64) -> Result<Self, LeeError> {
         let mut file = SceneFile::default();
         file.particle.shape = Some(Choice(ShapeName::Raindrop));
         file.particle.radius_mm = Some(0.5);

@@ -17,3 +17,6 @@ pub mod scalar;
 pub mod spherical_harmonics;
 pub mod spline;
 pub mod vec3;
+
+/// The golden ratio's fraction: steps of it spread any number of places evenly over 0 to 1.
+pub const GOLDEN: f64 = 0.618_033_988_749_894_9;

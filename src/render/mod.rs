@@ -1,9 +1,12 @@
 //! Pictures of phase tables: a preview of the table itself, and rainbows in the sky.
 //!
-//! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s. Stages of a rainbow:
+//! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s, which `bow` has computed where a scene
+//! of a picture names drops in place of tables. Stages of a rainbow:
 //! table → XYZ per direction (`tristimulus`) → mixture of drops → what each pixel of the
 //! `camera` sees of the sky, averaged over the sun's disc (`sky`) → sRGB → PNG.
 
+#[cfg(feature = "hdf5")]
+pub mod bow;
 pub mod camera;
 mod color_diagram;
 mod directions;
@@ -12,8 +15,10 @@ mod font;
 mod heat_map;
 mod picture;
 pub mod preview;
+mod ray_paths;
 pub mod sky;
 mod sun_smoothing;
+mod thinned;
 mod ticks;
 mod tristimulus;
 
@@ -22,11 +27,13 @@ pub use directions::DirectionGrid;
 pub use font::{FONT, ensure_font};
 pub use heat_map::{colour_bar, draw_pixels};
 pub use picture::{Picture, write_complete};
+pub use ray_paths::draw_ray_paths;
 pub use sun_smoothing::smooth_over_sun;
+pub use thinned::Thinned;
 pub use tristimulus::{Tristimulus, rotational_xyz};
 
-use crate::fault::{Blame, Fault};
 use crate::color::ColorError;
+use crate::fault::{Blame, Fault};
 use std::path::PathBuf;
 
 /// Why a picture cannot be made.

@@ -14,8 +14,10 @@
 //! ```
 
 mod law;
+mod spread;
 
 pub use law::SizeLaw;
+pub use spread::{log_normal_classes, log_normal_sample};
 
 use crate::fault::{Blame, Fault};
 use crate::math::gauss_legendre;
