@@ -135,7 +135,7 @@ mod tests {
         let seen = rays(&request, &sphere(RayDiffraction::Airy)).unwrap();
         let found = seen.efficiencies;
         assert!((found.q_ext / exact.q_ext - 1.0).abs() < 2e-3, "{found:?} {exact:?}");
-        assert!((found.asymmetry - exact.asymmetry).abs() < 5e-3, "{found:?} {exact:?}");
+        assert!((found.asymmetry - exact.asymmetry).abs() < 6e-3, "{found:?} {exact:?}");
         assert!(seen.diffraction_included && seen.doubt.is_none());
     }
 
