@@ -10,20 +10,17 @@
 //! colour strip take unpolarised light, element 11 alone; the map and the strip and the full CSV keep the
 //! azimuth. [`notes`] are what a user is told beside: an error that was not met, what was averaged over.
 
+mod atmosphere;
 pub mod average;
 mod colours;
 pub mod csv;
-mod database;
-pub mod eradiate;
 pub mod exr;
-mod legendre;
-pub mod libradtran;
 pub mod mitsuba;
 pub mod notes;
-pub mod sasktran2;
-pub mod size_grid;
 pub mod source;
 pub mod strip;
+
+pub use atmosphere::{eradiate, libradtran, sasktran2, size_grid};
 
 use crate::color::ColorError;
 use crate::fault::{Blame, Fault};

@@ -1,7 +1,7 @@
 //! What is exported: one table, or those of a sweep of sizes with its axes.
 
-use super::sasktran2::SizeDimension;
-use super::{ExportError, invalid};
+use crate::export::atmosphere::sasktran2::SizeDimension;
+use crate::export::{ExportError, invalid};
 use crate::hdf5::{self, AxisValues, SweepReader, TableError, position_of};
 use crate::phase_table::PhaseTable;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Wavelengths at which a medium is shown where nobody says which.
 
-use super::Medium;
+use crate::medium::kinds::Medium;
 
 /// Steps of the visible, and of a range outside it.
 const STEPS: u32 = 20;

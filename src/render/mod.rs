@@ -8,25 +8,21 @@
 #[cfg(feature = "hdf5")]
 pub mod bow;
 pub mod camera;
-mod color_diagram;
 mod directions;
-mod error_strip;
-mod font;
-mod heat_map;
 mod picture;
-pub mod preview;
+mod plots;
 mod ray_paths;
 pub mod sky;
 mod sun_smoothing;
 mod thinned;
-mod ticks;
 mod tristimulus;
 
-pub use color_diagram::ColorDiagram;
 pub use directions::DirectionGrid;
-pub use font::{FONT, ensure_font};
-pub use heat_map::{colour_bar, draw_pixels};
 pub use picture::{Picture, write_complete};
+pub use plots::color_diagram::ColorDiagram;
+pub use plots::font::{FONT, ensure_font};
+pub use plots::heat_map::{colour_bar, draw_pixels};
+pub use plots::preview;
 pub use ray_paths::draw_ray_paths;
 pub use sun_smoothing::smooth_over_sun;
 pub use thinned::Thinned;

@@ -3,10 +3,10 @@
 use crate::cli::show::notes;
 use crate::cli::{Failure, Result};
 use clap::{Args, ValueEnum};
-use gonio::medium::kramers_kronig::{Between, Tails};
-use gonio::medium::transform::{
+use gonio::medium::kramers_kronig::transform::{
     TransformMethod, Transformed, extinction_of_index, index_of_extinction,
 };
+use gonio::medium::kramers_kronig::{Between, Tails};
 use gonio::medium::{Medium, MediumSpec, read_csv};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
