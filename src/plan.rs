@@ -7,6 +7,7 @@ mod cost;
 
 pub use cost::Cost;
 
+use crate::fault::{Blame, Fault};
 use crate::math::digits::to_digits;
 use crate::medium::MediumError;
 use crate::optics::fresnel;
@@ -43,6 +44,12 @@ pub enum PlanError {
          one wave: extinction by rays is {SOFT_MISS} off); use --method mie (method = \"mie\" in a scene) for a sphere"
     )]
     Soft { index: String, place: String, size_parameter: f64, phase_shift: f64 },
+}
+
+impl Blame for PlanError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// Size parameters for which rays are accepted.

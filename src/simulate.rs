@@ -7,6 +7,7 @@
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{
@@ -42,6 +43,18 @@ pub enum SimulateError {
     Energy { wavelength_nm: f64, residual: f64 },
     #[error("the table would be wrong: {0}")]
     Wrong(#[from] InvalidTable),
+}
+
+impl Blame for SimulateError {
+    fn fault(&self) -> Fault {
+        match self {
+            SimulateError::Plan(error) => error.fault(),
+            SimulateError::Medium(error) => error.fault(),
+            SimulateError::Series(error) => error.fault(),
+            SimulateError::Mean(error) => error.fault(),
+            SimulateError::Energy { .. } | SimulateError::Wrong(_) => Fault::Run,
+        }
+    }
 }
 
 /// Rays per side of the grid on which the energy budget is added up.

@@ -1,5 +1,6 @@
 //! `gonio plan`: what a scene would compute, what is skipped and why.
 
+use super::Result;
 use super::cpu_time::CpuTime;
 use super::scene_flags::SceneFlags;
 use clap::Args;
@@ -21,7 +22,7 @@ pub struct PlanArgs {
     flags: SceneFlags,
 }
 
-pub fn run(args: PlanArgs) -> anyhow::Result<()> {
+pub fn run(args: PlanArgs) -> Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
     let plan = Plan::new(&scene)?;
     let azimuths = plan.table_azimuths(&scene.phi);
@@ -74,7 +75,7 @@ const LEAST_TRIAL: f64 = 0.3;
 const TRIED: [usize; 2] = [24, 36];
 
 /// Processor time of all wavelengths: trials at some of them, scaled up.
-fn physics_seconds(scene: &Scene, plan: &Plan, computed: &[f64]) -> anyhow::Result<f64> {
+fn physics_seconds(scene: &Scene, plan: &Plan, computed: &[f64]) -> Result<f64> {
     let count = scene.wavelengths.len();
     // in the middle first, then to both sides: time goes with the size parameter
     let mut order: Vec<usize> = (0..count).collect();
@@ -91,13 +92,8 @@ fn physics_seconds(scene: &Scene, plan: &Plan, computed: &[f64]) -> anyhow::Resu
 }
 
 /// Processor time of one wavelength.
-fn slab_seconds(
-    scene: &Scene,
-    plan: &Plan,
-    computed: &[f64],
-    wavelength: f64,
-) -> anyhow::Result<f64> {
-    let time = |azimuths: Vec<f64>| -> anyhow::Result<f64> {
+fn slab_seconds(scene: &Scene, plan: &Plan, computed: &[f64], wavelength: f64) -> Result<f64> {
+    let time = |azimuths: Vec<f64>| -> Result<f64> {
         let probe = Scene { phi: azimuths, ..scene.clone() };
         let watch = CpuTime::start();
         simulate::slab(&probe, plan, wavelength)?;
