@@ -8,7 +8,7 @@
 //! [`phase_table`] is what all computation produces and all output reads.
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `lee`, `batch` · `simulate` · `tabulate` · `farfield` · `plan`, `series`, `export` · `hdf5`,
+//! `cli` · `lee`, `batch` · `simulate` · `plan`, `tabulate` · `farfield` · `series`, `export` · `hdf5`,
 //! `compare`, `render` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`, `color`,
 //! `size_distribution` · `math`, `pending_file`.
 
@@ -28,7 +28,6 @@ pub mod trace;
 pub mod compare;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-pub mod plan;
 pub mod render;
 pub mod series;
 
@@ -36,6 +35,7 @@ pub mod series;
 pub mod export;
 pub mod farfield;
 
+pub mod plan;
 pub mod tabulate;
 
 pub mod simulate;

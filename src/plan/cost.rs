@@ -26,10 +26,8 @@ const PATCH: f64 = 840.0;
 const CHECK_SPOKES: usize = 96;
 /// Meridians of an order at all its azimuths.
 const MERIDIANS: f64 = 2e6;
-/// Partial waves: samples and potentials, per squared size parameter; and size parameter up to which
-/// they serve.
+/// Partial waves: samples and potentials, per squared size parameter.
 const PARTIAL_WAVES: f64 = 420.0;
-const LAST_OF_PARTIAL_WAVES: f64 = 600.0;
 /// Spheres: coefficients per size parameter; means over sizes: sums on all threads.
 const SERIES_SIZE: f64 = 1000.0;
 const MEANS: f64 = 75e6;
@@ -87,7 +85,7 @@ impl Plan {
                 PATCH * (self.rings * spokes) as f64 * orders
             }
             Engine::Meridians if self.symmetry == Symmetry::Rotational => 0.1 * MERIDIANS * orders,
-            Engine::Meridians if x < LAST_OF_PARTIAL_WAVES => PARTIAL_WAVES * x * x,
+            Engine::Meridians if x < self.thresholds.partial_waves_below => PARTIAL_WAVES * x * x,
             Engine::Meridians => MERIDIANS * orders,
             Engine::LorenzMie | Engine::Debye => {
                 let many = scene.size_distribution.is_some() || scene.bandwidth > 0.0;

@@ -2,7 +2,8 @@
 #![allow(dead_code, reason = "each test takes what it needs")]
 
 use gonio::phase_table::{
-    Averaging, Axes, Bodies, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Averaging, Axes, Bodies, EnergyBudget, ForwardPeak, MethodPart, PhaseTable, Quantity, Slab,
+    TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -89,7 +90,22 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         tolerance_met: Some(index.is_multiple_of(2)),
         error_by_direction: [0.05; gonio::phase_table::ERROR_BANDS],
         left_out: 0.0,
+        methods: methods(index),
     }
+}
+
+/// Two ranges of wavelengths.
+fn methods(index: usize) -> Vec<MethodPart> {
+    let method = if index < 2 { "rays of scattering planes" } else { "Gaussian beams" };
+    let part = MethodPart {
+        order: Some(2),
+        method: method.into(),
+        reason: "because".into(),
+        expected_error: Some(0.01),
+        share_of_light: Some(0.05),
+        ..MethodPart::default()
+    };
+    vec![part]
 }
 
 pub fn table(header: TableHeader) -> PhaseTable {
@@ -145,6 +161,7 @@ pub fn mie_table(
             tolerance_met: None,
             error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
             left_out: 0.0,
+            methods: Vec::new(),
         }
     });
     let slabs = slabs.collect();
