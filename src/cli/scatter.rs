@@ -4,7 +4,7 @@ use super::UsageError;
 use super::scatter_input::{
     Index, ShapeFlags, ShapeKind, parse_index, parse_orders, parse_theta, raindrop_model,
 };
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 use gonio::farfield::patches::gaussian_filter;
 use gonio::math::digits::to_digits;
@@ -388,7 +388,7 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
     // The backward direction rides along: rays are traced once.
     let asked = radians(job).into_iter().map(|theta| (theta, job.azimuth));
     let directions: Vec<(f64, f64)> = asked.chain([(PI, job.azimuth)]).collect();
-    let fates = fates(&plan, job);
+    let fates = fates(&plan, job)?;
     let (mut amplitudes, sections) = simulate::scatter_with_sections(
         &plan,
         job.index,
@@ -396,7 +396,7 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
         &directions,
         fates.absorbed,
         filter,
-    );
+    )?;
     let shift = phase_shift(job.index, job.size_parameter);
     if engine == Engine::Meridians && shift < DOUBTFUL_PHASE_SHIFT {
         let worth = simulate::worth_of_rays(&plan, job.index, job.size_parameter)?;
@@ -427,12 +427,16 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Answer> {
 }
 
 /// What becomes of the light on the shadow, by rays.
-fn fates(plan: &Plan, job: &Job) -> Fates {
+fn fates(plan: &Plan, job: &Job) -> Result<Fates> {
     const GRID: usize = 64;
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { GRID };
     let last = plan.orders.iter().copied().max().unwrap_or(0);
     let tracer = Tracer::new(&plan.shape, job.index, job.size_parameter, last);
-    energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes))
+    let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes));
+    if !simulate::adds_up(fates.residual, job.index, last) {
+        bail!("energy does not add up: {:e} of the light is unaccounted for", fates.residual);
+    }
+    Ok(fates)
 }
 
 fn to_json(args: &ScatterArgs, job: &Job, answer: &Answer, seconds: f64) -> Value {
