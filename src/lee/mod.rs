@@ -29,6 +29,7 @@ use crate::medium::{Medium, MediumError};
 use crate::plan::PlanError;
 use crate::scene::SceneError;
 use crate::series::SeriesError;
+use crate::simulate::SimulateError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
 use crate::size_distribution::log_normal_sample;
@@ -51,6 +52,8 @@ pub enum LeeError {
     Scene(#[from] SceneError),
     #[error(transparent)]
     Plan(#[from] PlanError),
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: &'static str, value: String, accepted: &'static str },
 }
@@ -59,6 +62,7 @@ impl Blame for LeeError {
     fn fault(&self) -> Fault {
         match self {
             LeeError::Series(error) => error.fault(),
+            LeeError::Simulate(error) => error.fault(),
             LeeError::Color(_)
             | LeeError::Medium(_)
             | LeeError::Scene(_)

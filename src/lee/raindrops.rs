@@ -98,7 +98,8 @@ impl Raindrops {
             for orders in groups {
                 let plan = self.plan(drop.radius, drop.wavelength, orders)?;
                 let size_parameter = TAU * drop.radius / drop.wavelength;
-                let matrices = simulate::scatter(&plan, drop.index, size_parameter, at);
+                let found = simulate::scatter(&plan, drop.index, size_parameter, at);
+                let matrices = simulate::finite(found, at)?;
                 for (sum, m) in sum.iter_mut().zip(&matrices) {
                     sum[0] += 0.5 * (m.s2.norm_sqr() + m.s3.norm_sqr());
                     sum[1] += 0.5 * (m.s1.norm_sqr() + m.s4.norm_sqr());

@@ -33,6 +33,7 @@ pub use size::{Size, SizeConflict};
 use crate::fault::{Blame, Fault};
 use crate::optics::AmplitudeMatrix;
 use crate::plan::PlanError;
+use crate::simulate::SimulateError;
 use crate::series::{Efficiencies, SeriesError};
 use num_complex::Complex64;
 
@@ -83,6 +84,11 @@ pub enum ScatterError {
     Plan(#[from] PlanError),
     #[error(transparent)]
     Series(#[from] SeriesError),
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
+    /// Share of the light.
+    #[error("energy does not add up: {0:e} of the light is unaccounted for")]
+    Energy(f64),
 }
 
 impl Blame for ScatterError {
@@ -90,6 +96,8 @@ impl Blame for ScatterError {
         match self {
             ScatterError::Plan(error) => error.fault(),
             ScatterError::Series(error) => error.fault(),
+            ScatterError::Simulate(error) => error.fault(),
+            ScatterError::Energy(_) => Fault::Run,
         }
     }
 }

@@ -72,7 +72,7 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
     // The backward direction rides along: rays are traced once.
     let asked = request.theta.iter().map(|&theta| (theta, azimuth));
     let directions: Vec<(f64, f64)> = asked.chain([(PI, azimuth)]).collect();
-    let fates = fates(&plan, request);
+    let fates = fates(&plan, request)?;
     let (mut amplitudes, sections) = simulate::scatter_with_sections(
         &plan,
         index,
@@ -80,7 +80,7 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
         &directions,
         fates.absorbed,
         filter,
-    );
+    )?;
     let phase_shift = phase_shift(index, size_parameter);
     let doubt = if engine == Engine::Meridians && phase_shift < DOUBTFUL_PHASE_SHIFT {
         let worth = simulate::worth_of_rays(&plan, index, size_parameter)?;
@@ -106,11 +106,16 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
 }
 
 /// What becomes of the light on the shadow, by rays.
-fn fates(plan: &Plan, request: &Request) -> Fates {
+fn fates(plan: &Plan, request: &Request) -> Result<Fates, ScatterError> {
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { GRID };
     let last = plan.orders.iter().copied().max().unwrap_or(0);
     let tracer = Tracer::new(&plan.shape, request.index, request.size_parameter, last);
-    energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes))
+    let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes));
+    if simulate::adds_up(fates.residual, request.index, last) {
+        Ok(fates)
+    } else {
+        Err(ScatterError::Energy(fates.residual))
+    }
 }
 
 #[cfg(test)]

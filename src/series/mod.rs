@@ -6,6 +6,7 @@
 pub mod angular;
 mod behind;
 pub mod debye;
+mod debye_error;
 pub mod even_angles;
 pub mod lanes;
 pub mod lorenz_mie;

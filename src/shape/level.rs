@@ -122,6 +122,8 @@ struct Line<'a, T> {
 const NEWTON_STEPS: usize = 40;
 /// `F` at the foot of the perpendicular below which a line passes well inside.
 const DEEP: f64 = -0.25;
+/// Squared distance from the centre up to which a line passes well inside the sphere of equal volume.
+const WITHIN_SPHERE: f64 = 0.9;
 
 impl<'a, T: Scalar> Line<'a, T> {
     fn new(shape: &'a Shape, origin: Vec3<T>, direction: Vec3<T>) -> Self {
@@ -207,7 +209,9 @@ impl<'a, T: Scalar> Line<'a, T> {
         let distance = self.q0 - self.half_q1 * self.half_q1;
         let core = self.shape.rough_core();
         // Through the core of a polar profile every line hits, and `F` itself may be rough there.
-        if distance.re() < core * core || self.at(middle).0.re() < DEEP {
+        // The guess is that of the sphere of equal volume, which discs and needles stand out of.
+        let within = || distance.re() < WITHIN_SPHERE && self.at(middle).0.re() < DEEP;
+        if distance.re() < core * core || within() {
             return Some((middle, middle - (-distance + 1.0).root()));
         }
         let mut t = middle;

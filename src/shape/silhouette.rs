@@ -1,6 +1,6 @@
 //! The silhouette: the outline of the body's shadow, seen along the light.
 
-use super::Shape;
+use super::{Body, Shape};
 use crate::math::vec3::Vec3;
 use std::f64::consts::TAU;
 
@@ -58,7 +58,11 @@ impl Silhouette<'_> {
         let (sin, cos) = azimuth.sin_cos();
         let along = Vec3 { x: cos, y: sin, z: 0.0 };
         let down = self.shape.down;
-        let (mut rho, mut t) = (1.0, 0.0);
+        let (mut rho, mut t) = match &self.shape.body {
+            // Newton's method from a sphere leads astray on discs and needles.
+            Body::Spheroid(spheroid) => spheroid.outline(down.dot(along), down.z),
+            _ => (1.0, 0.0),
+        };
         for _ in 0..50 {
             let x = along * rho + Vec3 { x: 0.0, y: 0.0, z: t };
             let (q, z) = (x.dot(x), down.dot(x));

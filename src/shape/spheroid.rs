@@ -30,6 +30,15 @@ impl Spheroid {
         self.horizontal.min(self.vertical).powf(-0.5)
     }
 
+    /// Outline of the shadow in one direction, and where along the light the body is touched: for the
+    /// components of the axis along that direction and along the light.
+    pub(super) fn outline(&self, along: f64, light: f64) -> (f64, f64) {
+        let excess = self.vertical - self.horizontal;
+        let bend = self.horizontal + excess * light * light;
+        let radius = (self.horizontal * (1.0 + excess * along * along / bend)).powf(-0.5);
+        (radius, -excess * light * along * radius / bend)
+    }
+
     pub(super) fn slope<T: Scalar>(&self, q: T, z: T) -> Slope<T> {
         let excess = self.vertical - self.horizontal;
         Slope {

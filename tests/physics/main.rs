@@ -4,6 +4,7 @@
 mod support;
 
 mod absorption_against_mie;
+mod assignment;
 mod color_reference;
 mod dyed_drop;
 mod error_estimate;
@@ -15,6 +16,7 @@ mod farfield_spheroid;
 mod medium_input;
 mod medium_kramers_kronig;
 mod medium_references;
+mod random_scenes;
 mod reciprocity;
 mod series_debye_reference;
 mod series_means;
