@@ -33,8 +33,8 @@ pub use size::{Size, SizeConflict};
 use crate::fault::{Blame, Fault};
 use crate::optics::AmplitudeMatrix;
 use crate::plan::PlanError;
-use crate::simulate::SimulateError;
 use crate::series::{Efficiencies, SeriesError};
+use crate::simulate::SimulateError;
 use num_complex::Complex64;
 
 /// Light of one wavelength on one particle, and where it is looked at.

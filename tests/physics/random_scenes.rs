@@ -41,7 +41,8 @@ fn run(toml: &str) -> Outcome {
         },
         Err(error) => {
             let kind = format!("{error:?}");
-            let kind: String = kind.chars().take_while(|c| c.is_alphanumeric() || *c == '(').collect();
+            let kind: String =
+                kind.chars().take_while(|c| c.is_alphanumeric() || *c == '(').collect();
             refused(&kind, &error.to_string())
         }
     }
@@ -119,7 +120,8 @@ fn random_scenes_end_with_a_sound_table_or_a_refusal() {
     }
     let shown = faults.iter().take(20).cloned().collect::<Vec<_>>().join("\n");
     assert!(faults.is_empty(), "{} of {count} scenes:\n{shown}", faults.len());
-    let tables: u64 = outcomes.iter().filter(|(n, _)| n.contains(": table")).map(|(_, c)| c.0).sum();
+    let tables: u64 =
+        outcomes.iter().filter(|(n, _)| n.contains(": table")).map(|(_, c)| c.0).sum();
     assert!(3 * tables > count, "{tables} tables of {count} scenes: too few to say anything");
 }
 
@@ -272,7 +274,11 @@ mod generator {
     fn table(r: &mut Random, most_theta: u32) -> String {
         let count = (r.log(2.0, f64::from(most_theta))) as u32;
         let theta = match r.next() % 8 {
-            0 => format!("{{ from = {:?}, to = {:?}, count = {count} }}", r.even(0.0, 80.0), r.even(90.0, 180.0)),
+            0 => format!(
+                "{{ from = {:?}, to = {:?}, count = {count} }}",
+                r.even(0.0, 80.0),
+                r.even(90.0, 180.0)
+            ),
             1 => "[0, 180]".into(),
             2 => format!("[{:?}, {:?}, 180]", r.log(1e-9, 1.0), r.even(2.0, 179.0)),
             3 => format!("{{ from = 0, to = {:?}, count = {count} }}", r.log(1e-3, 180.0)),
@@ -294,7 +300,8 @@ mod generator {
     fn orders(r: &mut Random) -> String {
         match r.next() % 6 {
             0 => {
-                let list: Vec<String> = (0..9).filter(|_| r.chance(0.4)).map(|p: u32| p.to_string()).collect();
+                let list: Vec<String> =
+                    (0..9).filter(|_| r.chance(0.4)).map(|p: u32| p.to_string()).collect();
                 if list.is_empty() { "[50]".into() } else { format!("[{}]", list.join(", ")) }
             }
             1 => format!("[{}]", r.of(&["0", "1", "2", "0, 1, 2, 3", "0, 1", "2, 0", "100"])),
@@ -348,7 +355,10 @@ mod generator {
                 r.log(1e-4, 0.45)
             ),
             2 | 3 => {
-                format!("kind = \"log-normal\", median_radius_um = {um:?}, spread = {:?}", r.log(1e-3, 1.0))
+                format!(
+                    "kind = \"log-normal\", median_radius_um = {um:?}, spread = {:?}",
+                    r.log(1e-3, 1.0)
+                )
             }
             4 => format!(
                 "kind = \"normal\", mean_radius_um = {um:?}, deviation_um = {:?}",
@@ -417,7 +427,10 @@ mod generator {
             sun: 20.0,
             light: String::new(),
             table: table(r, 541),
-            model: format!("method = \"rays\"\norders = {orders}\ntolerance = {:?}", r.log(1e-3, 0.5)),
+            model: format!(
+                "method = \"rays\"\norders = {orders}\ntolerance = {:?}",
+                r.log(1e-3, 0.5)
+            ),
         }
     }
 
@@ -694,7 +707,9 @@ mod judge {
             ensure(sca > 0.0 && abs >= -1e-6 * ext && slab.asymmetry.abs() <= 1.0, || {
                 format!("cross-sections {ext:e} {sca:e} {abs:e}, g {}", slab.asymmetry)
             })?;
-            ensure((ext - sca - abs).abs() <= 1e-6 * ext, || format!("balance {ext:e} {sca:e} {abs:e}"))?;
+            ensure((ext - sca - abs).abs() <= 1e-6 * ext, || {
+                format!("balance {ext:e} {sca:e} {abs:e}")
+            })?;
             ensure(slab.index.im > 0.0 || abs.abs() <= 1e-6 * ext, || {
                 format!("a transparent particle absorbs {abs:e} of {ext:e}")
             })?;
@@ -739,7 +754,9 @@ mod judge {
                 (Engine::LorenzMie, _) if is_mean(scene) => mean(scene, slab)?,
                 (Engine::LorenzMie, _) => exact(scene, slab)?,
                 (Engine::Debye, _) => debye(scene, table, slab)?,
-                (_, Particle::Sphere { radius }) => sphere_by_rays(scene, table, slab, radius, 0.0)?,
+                (_, Particle::Sphere { radius }) => {
+                    sphere_by_rays(scene, table, slab, radius, 0.0)?
+                }
                 (Engine::Meridians, Particle::Spheroid { radius, axis_ratio }) => {
                     deformed(scene, table, slab, radius, axis_ratio)?
                 }
@@ -756,7 +773,10 @@ mod judge {
 
     fn close(what: &str, found: f64, right: f64, slack: f64) -> Result<(), String> {
         ensure((found - right).abs() <= slack, || {
-            format!("{what} = {found:e}, right is {right:e}, {:e} off with {slack:e} allowed", found - right)
+            format!(
+                "{what} = {found:e}, right is {right:e}, {:e} off with {slack:e} allowed",
+                found - right
+            )
         })
     }
 
@@ -778,7 +798,12 @@ mod judge {
             let slack = 30.0 * inside * inside;
             let resonant = 3.0 / (m * m + 2.0).norm().min(3.0);
             close("Rayleigh's Q_sca", sca, right, slack * resonant * right)?;
-            close("Rayleigh's Q_abs", abs, right_abs, slack * resonant * right_abs.abs() + 1e-12 * sca)?;
+            close(
+                "Rayleigh's Q_abs",
+                abs,
+                right_abs,
+                slack * resonant * right_abs.abs() + 1e-12 * sca,
+            )?;
             return Ok("Rayleigh");
         }
         if !(0.1..3000.0).contains(&x) || inside > 2e4 {
@@ -789,7 +814,12 @@ mod judge {
         close("Q_ext", ext, right.extinction, slack * right.extinction.abs())?;
         close("Q_sca", sca, right.scattering, slack * right.extinction.abs())?;
         if scene.sun_disc == SunDisc::None {
-            close("g", slab.asymmetry, right.asymmetry, slack * right.extinction / right.scattering)?;
+            close(
+                "g",
+                slab.asymmetry,
+                right.asymmetry,
+                slack * right.extinction / right.scattering,
+            )?;
         }
         Ok("another Lorenz–Mie")
     }
@@ -836,7 +866,8 @@ mod judge {
         slab: &Slab,
         deformed: f64,
     ) -> Result<&'static str, String> {
-        let (Particle::Sphere { radius } | Particle::Spheroid { radius, .. }) = scene.particle else {
+        let (Particle::Sphere { radius } | Particle::Spheroid { radius, .. }) = scene.particle
+        else {
             return Ok("no truth");
         };
         let x = TAU * radius / slab.wavelength;
@@ -879,7 +910,12 @@ mod judge {
         // Few samples of many fringes scatter about their mean square.
         let scatter = 1.0 + 4.0 / (counted as f64).sqrt();
         let (error, stated) = ((off / all).sqrt(), slab.error_estimate);
-        close("P from 10 to 170 degrees", error, 0.0, HONEST * scatter * stated + scene.tolerance.min(0.1) + deformed)?;
+        close(
+            "P from 10 to 170 degrees",
+            error,
+            0.0,
+            HONEST * scatter * stated + scene.tolerance.min(0.1) + deformed,
+        )?;
         if filled > 20 {
             let count = f64::from(filled);
             let (error, stated) = ((bands / count).sqrt(), (stated_bands / count).sqrt());
@@ -890,14 +926,18 @@ mod judge {
 
     /// A mean over sizes against Simpson's rule.
     fn mean(scene: &Scene, slab: &Slab) -> Result<&'static str, String> {
-        let Some(sizes) = scene.size_distribution.as_ref().filter(|_| scene.bandwidth == 0.0) else {
+        let Some(sizes) = scene.size_distribution.as_ref().filter(|_| scene.bandwidth == 0.0)
+        else {
             return Ok("no truth");
         };
         let (m, wavenumber) = (slab.index, TAU / slab.wavelength);
         let (from, to) = sizes.limits(1e-7, wavenumber);
         let largest = wavenumber * to;
         let resonant = m.re > 1.6 && m.im < 0.1;
-        if !(0.01..60.0).contains(&largest) || resonant && largest > 1.0 || largest * m.norm() > 300.0 {
+        if !(0.01..60.0).contains(&largest)
+            || resonant && largest > 1.0
+            || largest * m.norm() > 300.0
+        {
             return Ok("no truth");
         }
         let [ext, sca, g] =
@@ -927,7 +967,8 @@ mod judge {
         let q = slab.extinction_cross_section / (2.0 * PI * radius * radius * shadow);
         // Light through the middle interferes with the shadow; the edge adds its own.
         let ratio = ratio.max(1.0 / ratio);
-        let slack = 4.0 * ratio / shift + 2.0 * ratio * x.powf(-2.0 / 3.0) + HONEST * slab.error_estimate;
+        let slack =
+            4.0 * ratio / shift + 2.0 * ratio * x.powf(-2.0 / 3.0) + HONEST * slab.error_estimate;
         close("extinction over twice the shadow", q, 1.0, slack)?;
         Ok("shadow")
     }

@@ -62,3 +62,39 @@ pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn knot(angle: f64, value: f64) -> Knot {
+        std::array::from_fn(|c| if c == 0 { angle } else { value * c as f64 })
+    }
+
+    /// Uneven knots, both ends included; descending ones too.
+    #[test]
+    fn slopes_of_parabolas_are_exact() {
+        let mut knots: Vec<Knot> = [0.2, 0.3, 0.7, 0.75, 1.6]
+            .iter()
+            .map(|&t: &f64| knot(t, 1.0 - 2.0 * t + 3.0 * t * t))
+            .collect();
+        for _ in 0..2 {
+            for (knot, slope) in knots.iter().zip(parabola_slopes(&knots)) {
+                assert!((slope[0] - 1.0).abs() < 1e-12);
+                for (c, slope) in slope.iter().enumerate().skip(1) {
+                    let exact = c as f64 * (6.0 * knot[0] - 2.0);
+                    assert!((slope - exact).abs() < 1e-10, "{slope} {exact}");
+                }
+            }
+            knots.reverse();
+        }
+    }
+
+    #[test]
+    fn two_knots_have_the_slope_of_their_line() {
+        let slopes = parabola_slopes(&[knot(0.5, 1.0), knot(1.0, 4.0)]);
+        assert!(
+            slopes.len() == 2 && slopes.iter().all(|slope| slope[1] == 6.0 && slope[2] == 12.0)
+        );
+    }
+}
