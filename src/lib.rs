@@ -8,9 +8,9 @@
 //! [`phase_table`] is what all computation produces and all output reads.
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `tabulate` · `farfield` ·
-//! `plan`, `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`,
-//! `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
+//! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
+//! `farfield` · `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace` · `optics`, `medium`,
+//! `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
 
 pub mod fault;
 pub mod math;
@@ -28,13 +28,13 @@ pub mod trace;
 
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-pub mod plan;
 pub mod series;
 
 #[cfg(feature = "hdf5")]
 pub mod export;
 pub mod farfield;
 
+pub mod plan;
 pub mod tabulate;
 
 pub mod simulate;

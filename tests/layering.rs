@@ -14,10 +14,10 @@ const FLOORS: [(u32, &[&str]); 12] = [
     (9, &["render"]),
     (8, &["lee", "batch", "scatter"]),
     (7, &["simulate"]),
-    (6, &["tabulate"]),
+    (6, &["plan", "tabulate"]),
     (5, &["farfield"]),
     // The export formats that are netCDF files use the writer of hdf5.
-    (4, &["plan", "series", "export"]),
+    (4, &["series", "export"]),
     (3, &["hdf5"]),
     (2, &["scene", "phase_table", "trace"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution"]),
@@ -312,7 +312,7 @@ fn between_folders(
 
 /// Floors inside `farfield`, top first; a file imports only from floors below its own, or from its own
 /// room.
-const FARFIELD: [&[&str]; 12] = [
+const FARFIELD: [&[&str]; 13] = [
     &["mod.rs"],
     &["error_estimate.rs"],
     &["sphere_check.rs"],
@@ -324,6 +324,7 @@ const FARFIELD: [&[&str]; 12] = [
     &["impact_integral"],
     &["deflection"],
     &["branch"],
+    &["assignment"],
     &["column.rs", "direction.rs", "settings.rs"],
 ];
 

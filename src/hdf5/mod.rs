@@ -43,7 +43,9 @@
 //! Root attributes: `Conventions`, `title`, `format`, `format_version`, `program`,
 //! `program_version`, `git_hash`, `date_created` (from `SOURCE_DATE_EPOCH` where that is set),
 //! `scene` (resolved, as TOML), `command_line`, `conventions` (in words), `license`, `quantity`,
-//! `method`, `shape`, `forward_peak` (`cell_average`, `point` or `separate`),
+//! `method`, `methods` (JSON: by range of wavelengths and order what computed it, why, its expected error,
+//! its share of the light, formulas and where they stand; of a sweep a variable along its axes), `shape`,
+//! `forward_peak` (`cell_average`, `point` or `separate`),
 //! `averaged_over_sun_disc` (`none`, `uniform`, `limb-darkened`: then no program may smooth again),
 //! `averaged_over_sizes` (0 or 1), `density_source`,
 //! `rotational_symmetry` (1: `phi` has one value that stands for all), `bit_round` (bits of the
@@ -65,6 +67,7 @@ mod circumstances;
 mod diagram;
 mod heap;
 mod literal;
+mod methods;
 mod netcdf;
 mod output;
 mod raw_attribute;

@@ -318,6 +318,7 @@ mod tests {
             error_by_band: f64::NAN,
             error_by_direction: [f64::NAN; crate::phase_table::ERROR_BANDS],
             left_out: 0.0,
+            methods: Vec::new(),
             tolerance_met: None,
         };
         (header, slab)

@@ -34,10 +34,8 @@ const TANGLED_FROM: f64 = 0.4e-3;
 const TANGLED_OVER: f64 = 0.9e-3;
 const LEFT_BETWEEN: f64 = 0.5;
 const LEFT_AFTER: f64 = 7.0;
-/// Partial waves: samples and potentials, per squared size parameter; and size parameter up to which
-/// they serve.
+/// Partial waves: samples and potentials, per squared size parameter.
 const PARTIAL_WAVES: f64 = 420.0;
-const LAST_OF_PARTIAL_WAVES: f64 = 600.0;
 /// Spheres: coefficients per size parameter; means over sizes: sums on all threads.
 const SERIES_SIZE: f64 = 1000.0;
 const MEANS: f64 = 75e6;
@@ -101,7 +99,7 @@ impl Plan {
                 PATCH * (self.rings * spokes) as f64 * orders
             }
             Engine::Meridians if self.symmetry == Symmetry::Rotational => 0.05 * MERIDIANS * orders,
-            Engine::Meridians if x < LAST_OF_PARTIAL_WAVES => PARTIAL_WAVES * x * x,
+            Engine::Meridians if x < self.thresholds.partial_waves_below => PARTIAL_WAVES * x * x,
             Engine::Meridians => {
                 let tangled = match &self.shape.body {
                     Body::Raindrop(_) => {

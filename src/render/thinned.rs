@@ -52,6 +52,7 @@ impl Thinned {
             values: slab.values.slice(s![..1, ..;theta, ..;phi]).to_owned(),
             caustic_order: None,
             energy: slab.energy.clone(),
+            methods: slab.methods.clone(),
             ..*slab
         };
         self.slabs.push(thin);

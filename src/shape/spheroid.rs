@@ -51,3 +51,27 @@ impl Spheroid {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Shape;
+    use crate::math::vec3::Vec3;
+
+    /// Half axes, and the radii of curvature at pole and equator: h²/v; v²/h along the meridian, h
+    /// around.
+    #[test]
+    fn half_axes_and_curvatures_are_those_of_the_ellipse() {
+        let ratio: f64 = 0.8;
+        let (h, v) = (ratio.powf(-1.0 / 3.0), ratio.powf(2.0 / 3.0));
+        let shape = Shape::spheroid(ratio, 0.0).unwrap();
+        let [pole, equator] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
+        let around = Vec3::new(0.0, 0.0, 1.0);
+        assert!((shape.radius_towards(1.0, 0.0, 0.0) - v).abs() < 1e-14);
+        assert!((shape.radius_towards(0.0, 0.6, 0.8) - h).abs() < 1e-14);
+        let radius = |at: Vec3<f64>, along: Vec3<f64>| shape.tangent(at).radius_along(along);
+        assert!((radius(pole * v, equator) - h * h / v).abs() < 1e-13);
+        assert!((radius(equator * h, pole) - v * v / h).abs() < 1e-13);
+        assert!((radius(equator * h, around) - h).abs() < 1e-13);
+        assert!((shape.bounding_radius() - h).abs() < 1e-15);
+    }
+}

@@ -120,6 +120,10 @@ fn describe(path: &Path, reader: &TableReader) -> Result<Value> {
     let bands: Vec<f64> = (0..ERROR_BANDS).map(|k| tidy(error_theta(k).to_degrees())).collect();
     description["error_theta_deg"] = json!(bands);
     description["wavelengths"] = Value::Array(slabs);
+    description["methods"] = match reader.attribute("methods")? {
+        Some(text) => serde_json::from_str(&text)?,
+        None => Value::Null,
+    };
     for name in ["program_version", "git_hash", "date_created", "command_line", "license"] {
         description[name] = json!(reader.attribute(name)?);
     }

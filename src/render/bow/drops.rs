@@ -240,6 +240,7 @@ fn slab(
         tolerance_met: None,
         error_by_direction: [1e-10; ERROR_BANDS],
         left_out: 0.0,
+        methods: Vec::new(),
     }
 }
 
