@@ -13,7 +13,6 @@ pub mod mean;
 mod mean_nodes;
 mod mean_sum;
 mod stretch;
-mod sun_disc;
 pub mod table;
 
 use crate::fault::{Blame, Fault};
