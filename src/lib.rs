@@ -9,8 +9,8 @@
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
 //! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
-//! `farfield` · `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace` · `optics`, `medium`,
-//! `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
+//! `farfield` · `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
+//! `medium`, `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
 
 pub mod fault;
 pub mod math;
@@ -24,6 +24,7 @@ pub mod size_distribution;
 
 pub mod phase_table;
 pub mod scene;
+pub mod sun_disc;
 pub mod trace;
 
 #[cfg(feature = "hdf5")]

@@ -19,7 +19,7 @@ const FLOORS: [(u32, &[&str]); 12] = [
     // The export formats that are netCDF files use the writer of hdf5.
     (4, &["series", "export"]),
     (3, &["hdf5"]),
-    (2, &["scene", "phase_table", "trace"]),
+    (2, &["scene", "phase_table", "trace", "sun_disc"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution"]),
     (0, &["math", "pending_file", "fault"]),
 ];
@@ -366,15 +366,19 @@ fn no_circle_between_files_or_folders() {
     }
 }
 
+/// Folders that still hold more.
+const CROWDED: [&str; 1] = ["hdf5"];
+
 #[test]
 fn no_folder_holds_more_than_twelve_files() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/farfield");
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut counts: BTreeMap<PathBuf, usize> = BTreeMap::new();
     for file in sources(&src) {
         *counts.entry(file.parent().unwrap().to_path_buf()).or_default() += 1;
     }
     for (folder, count) in counts {
-        assert!(count <= 12, "{} holds {count} files", folder.display());
+        let crowded = CROWDED.iter().any(|name| folder == src.join(name));
+        assert_eq!(count > 12, crowded, "{} holds {count} files", folder.display());
     }
 }
 

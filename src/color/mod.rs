@@ -33,7 +33,7 @@ pub use srgb::{
     decode_srgb, encode_srgb, fit_gamut, srgb_to_xyz, to_srgb, wavelength_srgb, xyz_to_linear_srgb,
     xyz_to_srgb,
 };
-pub use sun::{LimbDarkening, SUN_ANGULAR_RADIUS, SunDisc};
+pub use sun::{LimbDarkening, SUN_ANGULAR_RADIUS};
 
 use crate::fault::{Blame, Fault};
 

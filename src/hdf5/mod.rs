@@ -91,6 +91,7 @@ pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter
 pub use writer::{TableWriter, write};
 
 use crate::fault::{Blame, Fault};
+pub use crate::math::bytes::decimal_bytes;
 use crate::phase_table::InvalidTable;
 use std::path::{Path, PathBuf};
 
@@ -133,18 +134,6 @@ impl Blame for TableError {
             | TableError::Table(_) => Fault::Run,
         }
     }
-}
-
-/// A number of bytes on a disk for people, in powers of 1000 as disks are labelled: `3.4 GB`.
-pub fn decimal_bytes(bytes: u64) -> String {
-    const UNITS: [&str; 7] = ["bytes", "kB", "MB", "GB", "TB", "PB", "EB"];
-    let mut value = bytes as f64;
-    let mut unit = 0;
-    while value >= 1000.0 && unit + 1 < UNITS.len() {
-        value /= 1000.0;
-        unit += 1;
-    }
-    if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
 }
 
 fn damaged(path: &Path, message: &str) -> TableError {

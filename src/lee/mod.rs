@@ -13,7 +13,6 @@ mod diagram;
 pub mod file;
 mod raindrops;
 mod sampling;
-mod sun_filter;
 mod wavelengths;
 
 pub use crate::optics::Polarisation;
@@ -21,7 +20,6 @@ pub use columns::{Bodies, columns};
 pub use diagram::{Diagram, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::{Band, Beats, Sampling, SamplingNeed};
-pub use sun_filter::{Kernel, SunFilter};
 
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::fault::{Blame, Fault};
@@ -33,6 +31,7 @@ use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
 use crate::simulate::SimulateError;
 use crate::size_distribution::log_normal_sample;
+use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
 use num_complex::Complex64;
 use rayon::prelude::*;

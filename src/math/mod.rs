@@ -1,5 +1,6 @@
 //! Mathematics without physics: special functions, kernels, interpolation, quadrature.
 
+pub mod bytes;
 mod curves;
 pub mod digits;
 pub mod fused;

@@ -13,7 +13,6 @@ mod picture;
 mod plots;
 mod ray_paths;
 pub mod sky;
-mod sun_smoothing;
 mod thinned;
 mod tristimulus;
 
@@ -24,7 +23,6 @@ pub use plots::font::{FONT, ensure_font};
 pub use plots::heat_map::{colour_bar, draw_pixels};
 pub use plots::preview;
 pub use ray_paths::draw_ray_paths;
-pub use sun_smoothing::smooth_over_sun;
 pub use thinned::Thinned;
 pub use tristimulus::{Tristimulus, rotational_xyz};
 

@@ -14,7 +14,6 @@ pub mod mean;
 mod mean_nodes;
 mod mean_sum;
 mod stretch;
-mod sun_disc;
 pub mod table;
 
 use crate::fault::{Blame, Fault};

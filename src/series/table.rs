@@ -12,12 +12,12 @@ use super::debye::{DebyeSeries, Term};
 use super::debye_error::BandErrors;
 use super::lorenz_mie::{Sphere, sums};
 use super::mean::{Ensemble, MeanError};
-use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
 use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
 use crate::scene::SunDisc;
 use crate::size_distribution::SizeDistribution;
+use crate::sun_disc::DiscMean;
 use ndarray::Array3;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
@@ -165,7 +165,7 @@ impl SphereJob<'_> {
             SunDisc::Uniform => None,
             SunDisc::LimbDarkened => Some(LimbDarkening::at(self.wavelength)),
         };
-        let disc = Disc::new(largest, limb);
+        let disc = DiscMean::new(largest, limb);
         let mut curves = self.curves(index, &disc.fine_angles())?;
         curves.elements = disc.means(&curves.elements, theta);
         curves.errors = curves.errors.at_least(DISC_ERROR);

@@ -56,17 +56,17 @@ impl SunFilter {
     }
 
     /// How far the low-pass filter alone reaches, radians.
-    pub(super) fn half_width(&self) -> f64 {
+    pub(crate) fn half_width(&self) -> f64 {
         self.half
     }
 
     /// The fastest beat that passes, radians⁻¹.
-    pub(super) fn highest(&self) -> f64 {
+    pub(crate) fn highest(&self) -> f64 {
         self.highest
     }
 
     /// The low-pass filter alone, at an angle from its middle.
-    pub(super) fn low_pass(&self, angle: f64) -> f64 {
+    pub(crate) fn low_pass(&self, angle: f64) -> f64 {
         self.sinc.at(angle)
     }
 
@@ -154,7 +154,7 @@ fn bessel_i0(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::SunDisc;
+    use crate::sun_disc::DiscPoints;
 
     /// A slow beat comes out as a sum over the disc's directions gives it, a fast one not at all.
     #[test]
@@ -165,7 +165,7 @@ mod tests {
         let kernel = filter.kernel(&limb);
         let step = std::f64::consts::TAU / (highest + cutoff + transition);
         let theta: Vec<f64> = (0..2000).map(|i| 2.0 + (f64::from(i) - 1000.0) * step).collect();
-        let disc = SunDisc::new(SUN_ANGULAR_RADIUS, 60, 240);
+        let disc = DiscPoints::new(SUN_ANGULAR_RADIUS, 60, 240);
         for frequency in [0.0, 100.0, 300.0, 499.0, 1600.0, 2500.0, 3999.0] {
             let beat = |t: f64| (frequency * (t - 2.0) + 0.7).cos();
             let values: Vec<[f64; 1]> = theta.iter().map(|&t| [beat(t)]).collect();

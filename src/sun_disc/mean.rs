@@ -22,7 +22,7 @@ const LEAST_RINGS: f64 = 16.0;
 
 /// Points of the disc: distance from its centre and share of its light.
 #[derive(Clone, Debug)]
-pub(super) struct Disc {
+pub struct DiscMean {
     rings: Vec<(f64, f64)>,
     /// cos ψ of the points of a ring (the other half mirrors them).
     turns: Vec<f64>,
@@ -30,7 +30,7 @@ pub(super) struct Disc {
     count: usize,
 }
 
-impl Disc {
+impl DiscMean {
     /// The disc for curves of spheres up to a size parameter; `limb`: darker towards its rim.
     pub fn new(size_parameter: f64, limb: Option<LimbDarkening>) -> Self {
         let lobe = PI / size_parameter;
@@ -58,7 +58,7 @@ impl Disc {
         (0..=self.count).map(|i| PI * i as f64 / self.count as f64).collect()
     }
 
-    /// The means at some angles of the curve given at [`Disc::fine_angles`].
+    /// The means at some angles of the curve given at [`DiscMean::fine_angles`].
     pub fn means(&self, fine: &[[f64; 4]], theta: &[f64]) -> Vec<[f64; 4]> {
         theta.par_iter().map(|&theta| self.mean(fine, theta)).collect()
     }
@@ -123,7 +123,7 @@ mod tests {
             }
             now
         };
-        let disc = Disc::new(400.0, None);
+        let disc = DiscMean::new(400.0, None);
         for l in [1, 40, 300] {
             let fine: Vec<[f64; 4]> =
                 disc.fine_angles().iter().map(|t| [legendre(l, t.cos()); 4]).collect();

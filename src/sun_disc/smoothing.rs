@@ -103,7 +103,8 @@ fn interpolate(theta: &[f64], values: &[f64], angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::{SUN_ANGULAR_RADIUS, SunDisc};
+    use crate::color::SUN_ANGULAR_RADIUS;
+    use crate::sun_disc::DiscPoints;
 
     /// Against directions spread over the disc, at the bow, near the glory and at it.
     #[test]
@@ -111,7 +112,7 @@ mod tests {
         let curve = |t: f64| 2.0 + (t * 150.0).sin();
         let theta: Vec<f64> = (0..=36000).map(|i| (0.005 * i as f64).to_radians()).collect();
         let values: Vec<f64> = theta.iter().map(|&t| curve(t)).collect();
-        let disc = SunDisc::new(SUN_ANGULAR_RADIUS, 60, 240);
+        let disc = DiscPoints::new(SUN_ANGULAR_RADIUS, 60, 240);
         for degrees in [2.0, 60.0, 138.0, 179.8, 180.0] {
             let centre = f64::to_radians(degrees);
             let (mut sum, mut norm) = (0.0, 0.0);
