@@ -7,6 +7,7 @@
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{
@@ -42,6 +43,18 @@ pub enum SimulateError {
     Energy { wavelength_nm: f64, residual: f64 },
     #[error("the table would be wrong: {0}")]
     Wrong(#[from] InvalidTable),
+}
+
+impl Blame for SimulateError {
+    fn fault(&self) -> Fault {
+        match self {
+            SimulateError::Plan(error) => error.fault(),
+            SimulateError::Medium(error) => error.fault(),
+            SimulateError::Series(error) => error.fault(),
+            SimulateError::Mean(error) => error.fault(),
+            SimulateError::Energy { .. } | SimulateError::Wrong(_) => Fault::Run,
+        }
+    }
 }
 
 /// Rays per side of the grid on which the energy budget is added up.
@@ -99,7 +112,8 @@ pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        return Ok(series_slab(scene, plan, wavelength)?);
+        let slab = series_slab(scene, plan, wavelength)?;
+        return Ok(Slab { methods: plan.series_parts(), ..slab });
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
@@ -114,6 +128,10 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
             .then(|| gaussian_filter::standard_deviation(plan.radius)),
     };
     let left_out = left_out(plan, &budget) * far_field.silhouette().area() / sections.scattering();
+    let methods = far_field.assignment().cloned();
+    let methods =
+        methods.or_else(|| plan.assignment(&plan.tracer(index, size_parameter), size_parameter));
+    let methods = methods.map_or_else(Vec::new, |all| all.parts(&budget.left_by_order));
     let tabulator = Tabulator {
         theta: &scene.theta,
         size_parameter,
@@ -131,7 +149,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
         let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-        let tracer = tracer(plan, index, size_parameter);
+        let tracer = plan.tracer(index, size_parameter);
         far_field.error_estimate(&tracer, &squares, treatment.interference)
     } else {
         ErrorEstimate::UNKNOWN
@@ -157,6 +175,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         error_by_band: error_estimate.by_band,
         error_by_direction: error_estimate.by_direction,
         left_out,
+        methods,
         tolerance_met,
     })
 }
@@ -210,6 +229,7 @@ fn sphere_check(
             Engine::Patches => CheckedMethod::Patches { rings: plan.rings, interference, filter },
             _ => CheckedMethod::Meridians { deformed: !plan.shape.rotational_symmetry() },
         },
+        thresholds: plan.thresholds,
     }
 }
 
@@ -226,7 +246,7 @@ pub fn worth_of_rays(
     let treatment = Treatment { interference: true, filter: None };
     let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
     let far_field = far_field(plan, index, size_parameter, &[0.0], plan.forward_diffraction);
-    Ok(far_field.error_estimate(&tracer(plan, index, size_parameter), &squares, true))
+    Ok(far_field.error_estimate(&plan.tracer(index, size_parameter), &squares, true))
 }
 
 /// Cross sections in units of the squared radius.
@@ -406,8 +426,10 @@ fn far_field<'a>(
     azimuths: &[f64],
     diffraction: bool,
 ) -> FarField<'a> {
-    let tracer = tracer(plan, index, size_parameter);
-    if plan.engine == Engine::Meridians {
+    let tracer = plan.tracer(index, size_parameter);
+    if let Some(assignment) =
+        plan.assignment(&tracer, size_parameter).filter(|_| plan.engine == Engine::Meridians)
+    {
         let (azimuths, _) = plan.computed_azimuths(azimuths);
         let settings = FarFieldSettings {
             size_parameter,
@@ -417,7 +439,7 @@ fn far_field<'a>(
             checked: plan.checked,
             azimuths: &azimuths,
         };
-        return FarField::meridians(&tracer, &settings);
+        return FarField::assigned(&tracer, &settings, assignment);
     }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
     FarField::patches(
@@ -425,16 +447,6 @@ fn far_field<'a>(
         sheets::sheets(&tracer, &wavefront, &plan.orders),
         size_parameter,
     )
-}
-
-/// What traces a plan's rays.
-fn tracer<'a>(plan: &'a Plan, index: Complex64, size_parameter: f64) -> Tracer<'a> {
-    let last = plan.orders.iter().copied().max().unwrap_or(0);
-    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
-    if plan.engine == Engine::Meridians {
-        return tracer.with_curved_interface(size_parameter);
-    }
-    tracer
 }
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.

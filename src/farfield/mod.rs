@@ -1,5 +1,6 @@
 //! The far field: from rays that left the particle to amplitudes in any direction.
 //!
+//! Which method serves which order is decided in [`assignment`] and nowhere else.
 //! Two ways lead there. The main one follows, for each order, the rays that leave in one scattering plane
 //! ([`deflection`]), cuts them at their landmarks into the segments of a [`branch`] with uniform formulas
 //! at folds, near the rim ([`impact_integral`]) and at the edge of the shadow ([`forward`]), interpolates
@@ -9,6 +10,7 @@
 //! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`mod@reference`]
 //! is a brute-force sum that needs no asymptotics; [`sphere_check`] says what the method is worth. [`FarField`] is what the rest of the house uses.
 
+pub mod assignment;
 pub mod azimuth;
 pub mod branch;
 mod column;

@@ -43,7 +43,9 @@
 //! Root attributes: `Conventions`, `title`, `format`, `format_version`, `program`,
 //! `program_version`, `git_hash`, `date_created` (from `SOURCE_DATE_EPOCH` where that is set),
 //! `scene` (resolved, as TOML), `command_line`, `conventions` (in words), `license`, `quantity`,
-//! `method`, `shape`, `forward_peak` (`cell_average`, `point` or `separate`),
+//! `method`, `methods` (JSON: by range of wavelengths and order what computed it, why, its expected error,
+//! its share of the light, formulas and where they stand; of a sweep a variable along its axes), `shape`,
+//! `forward_peak` (`cell_average`, `point` or `separate`),
 //! `averaged_over_sun_disc` (`none`, `uniform`, `limb-darkened`: then no program may smooth again),
 //! `averaged_over_sizes` (0 or 1), `density_source`,
 //! `rotational_symmetry` (1: `phi` has one value that stands for all), `bit_round` (bits of the
@@ -65,6 +67,7 @@ mod circumstances;
 mod diagram;
 mod heap;
 mod literal;
+mod methods;
 mod netcdf;
 mod output;
 mod raw_attribute;
@@ -87,6 +90,7 @@ pub use space::{available_bytes, estimate_bytes};
 pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter, position_of};
 pub use writer::{TableWriter, write};
 
+use crate::fault::{Blame, Fault};
 use crate::phase_table::InvalidTable;
 use std::path::{Path, PathBuf};
 
@@ -102,6 +106,9 @@ pub enum TableError {
     Io { path: PathBuf, source: std::io::Error },
     #[error("{}: cannot be written: {message}", path.display())]
     Write { path: PathBuf, message: String },
+    /// The same, where the disk has no room or the quota none left.
+    #[error("{}: cannot be written: {message}", path.display())]
+    DiskFull { path: PathBuf, message: String },
     #[error("{}: not a phase table: {message}", path.display())]
     Foreign { path: PathBuf, message: String },
     #[error("{}: damaged: {message}", path.display())]
@@ -112,16 +119,19 @@ pub enum TableError {
     Table(#[from] InvalidTable),
 }
 
-impl TableError {
-    /// True where the caller's input is wrong, rather than the disk or the computation.
-    pub fn is_wrong_input(&self) -> bool {
-        matches!(
-            self,
+impl Blame for TableError {
+    fn fault(&self) -> Fault {
+        match self {
             TableError::Exists { .. }
-                | TableError::NoSpace { .. }
-                | TableError::Foreign { .. }
-                | TableError::Invalid { .. }
-        )
+            | TableError::NoSpace { .. }
+            | TableError::Foreign { .. }
+            | TableError::Invalid { .. } => Fault::Input,
+            TableError::Io { .. }
+            | TableError::Write { .. }
+            | TableError::DiskFull { .. }
+            | TableError::Damaged { .. }
+            | TableError::Table(_) => Fault::Run,
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 //! that is to be written and one that was read.
 
 use super::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
+use crate::fault::{Blame, Fault};
 use std::f64::consts::{PI, TAU};
 
 /// How far an element may exceed S11, relative: rounding to `f32` of both.
@@ -28,6 +29,12 @@ pub struct InvalidTable {
     pub field: String,
     pub value: String,
     pub accepted: String,
+}
+
+impl Blame for InvalidTable {
+    fn fault(&self) -> Fault {
+        Fault::Run
+    }
 }
 
 pub(super) fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
@@ -311,6 +318,7 @@ mod tests {
             error_by_band: f64::NAN,
             error_by_direction: [f64::NAN; crate::phase_table::ERROR_BANDS],
             left_out: 0.0,
+            methods: Vec::new(),
             tolerance_met: None,
         };
         (header, slab)

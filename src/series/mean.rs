@@ -14,6 +14,7 @@
 use super::SeriesError;
 use super::mean_nodes::{Line, ZoneError};
 use super::mean_sum::{Summed, exact, fine_and_coarse};
+use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
 use crate::size_distribution::SizeDistribution;
 use std::f64::consts::PI;
@@ -72,6 +73,17 @@ pub enum MeanError {
         /// Spheres of the last attempt.
         spheres: usize,
     },
+}
+
+impl Blame for MeanError {
+    fn fault(&self) -> Fault {
+        match self {
+            MeanError::Series(error) => error.fault(),
+            MeanError::Medium(error) => error.fault(),
+            MeanError::TooLong { .. } => Fault::Input,
+            MeanError::NotMet { .. } => Fault::Run,
+        }
+    }
 }
 
 /// Mean per particle.

@@ -138,6 +138,7 @@ pub fn sphere_slab(
         tolerance_met: (!curves.error.is_nan()).then_some(curves.error <= job.tolerance),
         error_by_direction: [curves.error; ERROR_BANDS],
         left_out: curves.left_out,
+        methods: Vec::new(),
     })
 }
 

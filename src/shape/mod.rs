@@ -16,6 +16,7 @@ pub use level::{Level, Slope, Tangent};
 pub use raindrop::{Raindrop, RaindropModel};
 pub use silhouette::Silhouette;
 
+use crate::fault::{Blame, Fault};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 
@@ -26,6 +27,12 @@ pub enum ShapeError {
     RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
     #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
     AxisRatio(f64),
+}
+
+impl Blame for ShapeError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// The kind of body, its equal-volume sphere scaled to radius 1.

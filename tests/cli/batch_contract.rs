@@ -2,6 +2,7 @@
 //! a process that ends with its parent.
 
 use gonio::batch::BatchError;
+use gonio::fault::Blame;
 use gonio::hdf5::{AxisValues, SweepReader, TableError};
 use std::fs;
 use std::io::{Error, ErrorKind};
@@ -103,6 +104,7 @@ fn exit_codes_tell_drivers_what_to_do() {
     let path = || Path::new("t.h5").to_path_buf();
     let io = |kind: ErrorKind| BatchError::Io { path: path(), source: Error::from(kind) };
     let write = |message: &str| TableError::Write { path: path(), message: message.into() };
+    let full = || TableError::DiskFull { path: path(), message: "no room".into() };
     let id = || "0123".to_string();
     let cases = [
         (BatchError::Plan { path: path(), message: "line 1".into() }, 2),
@@ -117,7 +119,7 @@ fn exit_codes_tell_drivers_what_to_do() {
         (io(ErrorKind::StorageFull), 75),
         (io(ErrorKind::StaleNetworkFileHandle), 75),
         (io(ErrorKind::TimedOut), 75),
-        (BatchError::Table(write("No space left on device")), 75),
+        (BatchError::Table(full()), 75),
         (BatchError::Table(TableError::NoSpace { path: path(), needed: 2, available: 1 }), 75),
     ];
     for (error, code) in cases {

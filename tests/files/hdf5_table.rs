@@ -2,6 +2,7 @@
 //! equal bytes.
 
 use crate::support::{header, slab, table};
+use gonio::fault::{Blame, Fault};
 use gonio::hdf5::{self, TableError, TableReader, TableWriter, WriteOptions};
 use gonio::phase_table::{PhaseTable, Quantity};
 use std::fs;
@@ -128,7 +129,8 @@ fn a_file_that_exists_stays_unless_told() {
     fs::write(&path, "mine").unwrap();
     let table = table(header(1, 19, 5, Quantity::PhaseFunction));
     let error = hdf5::write(&path, &table, undated()).unwrap_err();
-    assert!(matches!(error, TableError::Exists { .. }) && error.is_wrong_input(), "{error}");
+    assert!(matches!(error, TableError::Exists { .. }), "{error}");
+    assert_eq!(error.fault(), Fault::Input);
     assert_eq!(fs::read(&path).unwrap(), b"mine");
     hdf5::write(&path, &table, WriteOptions { overwrite: true, ..undated() }).unwrap();
     assert_same(&hdf5::read(&path).unwrap(), &table);
@@ -186,7 +188,7 @@ fn a_table_larger_than_the_disk_is_refused_with_its_size() {
     header.axes.phi = line(100_000, 6.0);
     let path = folder.path().join("t.h5");
     let error = TableWriter::create(&path, &header, undated()).unwrap_err();
-    assert!(error.is_wrong_input());
+    assert_eq!(error.fault(), Fault::Input);
     assert!(error.to_string().contains("needs up to 640.0 TB"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }

@@ -2,6 +2,7 @@
 //! never half a table under the final name.
 
 use crate::support::{header, table};
+use gonio::fault::{Blame, Fault};
 use gonio::hdf5::{self, TableError, TableReader, WriteOptions};
 use gonio::phase_table::Quantity;
 use std::fs;
@@ -50,9 +51,9 @@ fn foreign_files_are_told_what_they_lack() {
     };
     says("No such file");
     fs::write(&path, "").unwrap();
-    assert!(says("too short").is_wrong_input());
+    assert_eq!(says("too short").fault(), Fault::Input);
     fs::write(&path, "this is a text and no HDF5 file").unwrap();
-    assert!(says("not an HDF5 file").is_wrong_input());
+    assert_eq!(says("not an HDF5 file").fault(), Fault::Input);
     let content = hdf5::NetcdfFile {
         dimensions: vec![("x".into(), 2)],
         variables: vec![hdf5::NetcdfVariable {
@@ -64,7 +65,7 @@ fn foreign_files_are_told_what_they_lack() {
         attributes: Vec::new(),
     };
     hdf5::write_netcdf(&path, &content, true).unwrap();
-    assert!(says("no attribute format").is_wrong_input());
+    assert_eq!(says("no attribute format").fault(), Fault::Input);
     assert!(matches!(TableReader::open(folder.path()), Err(TableError::Foreign { .. })));
 }
 

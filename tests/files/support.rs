@@ -1,7 +1,8 @@
 //! Tables made up for tests: smooth, normalised, different in every slab.
 
 use gonio::phase_table::{
-    Averaging, Axes, Bodies, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
+    Averaging, Axes, Bodies, EnergyBudget, ForwardPeak, MethodPart, PhaseTable, Quantity, Slab,
+    TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -88,7 +89,22 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
         tolerance_met: Some(index.is_multiple_of(2)),
         error_by_direction: [0.05; gonio::phase_table::ERROR_BANDS],
         left_out: 0.0,
+        methods: methods(index),
     }
+}
+
+/// Two ranges of wavelengths.
+fn methods(index: usize) -> Vec<MethodPart> {
+    let method = if index < 2 { "rays of scattering planes" } else { "Gaussian beams" };
+    let part = MethodPart {
+        order: Some(2),
+        method: method.into(),
+        reason: "because".into(),
+        expected_error: Some(0.01),
+        share_of_light: Some(0.05),
+        ..MethodPart::default()
+    };
+    vec![part]
 }
 
 pub fn table(header: TableHeader) -> PhaseTable {
@@ -144,6 +160,7 @@ pub fn mie_table(
             tolerance_met: None,
             error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
             left_out: 0.0,
+            methods: Vec::new(),
         }
     });
     let slabs = slabs.collect();

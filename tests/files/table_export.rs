@@ -128,6 +128,9 @@ fn wrong_requests_have_code_2() {
         (vec!["export", "drop.h5", "--to", "strip"], "wavelength"),
         (vec!["export", "drop.h5", "--to", "sasktran2", "--moments", "0"], "--moments 0"),
         (vec!["export", "drop.h5", "--to", "exr", "--radius-deg", "0"], "--radius-deg 0"),
+        (vec!["export", "drop.h5", "--to", "csv", "--azimuth-deg", "20"], "only strip"),
+        (vec!["export", "drop.h5", "--to", "csv", "--polarisation", "parallel"], "only strip, exr"),
+        (vec!["export", "drop.h5", "--to", "mitsuba", "--density-kg-m3", "900"], "only eradiate"),
         (vec!["info", "none.h5"], "no such file"),
         (vec!["validate", "none.h5"], "no such file"),
     ] {

@@ -1,6 +1,8 @@
 //! The preview of a table: a PNG with its panels filled, and a plain word where one is missing.
 
 use crate::tables::{degrees, lopsided, sphere, visible};
+use gonio::export::strip;
+use gonio::optics::Polarisation;
 use gonio::phase_table::Quantity;
 use gonio::render::preview;
 
@@ -65,4 +67,30 @@ fn an_unwritable_place_is_named() {
     let table = sphere(1e-5, vec![650e-9], degrees(0.0, 180.0, 91), Quantity::PhaseFunction);
     let error = preview::write_png(&table, std::path::Path::new("/nowhere/at/all.png"));
     assert!(error.unwrap_err().to_string().contains("/nowhere/at/all.png"));
+}
+
+/// A sphere much smaller than the wavelength sends nothing along the scattering plane at 90°; straight on,
+/// both filters pass half.
+#[test]
+fn a_strip_seen_through_a_filter_is_dark_where_no_light_of_that_kind_goes() {
+    let small = sphere(1e-9, visible(9), degrees(0.0, 180.0, 181), Quantity::Mueller);
+    let range = (0.0, std::f64::consts::PI);
+    let line = |seen| {
+        let file = strip::png(&small, 0.0, seen, range, (181, 1)).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        pixels
+    };
+    let (parallel, across) = (line(Polarisation::Parallel), line(Polarisation::Perpendicular));
+    let blue = |pixels: &[u8], degree: usize| pixels[3 * degree + 2];
+    assert!(blue(&parallel, 90) < 3, "{}", blue(&parallel, 90));
+    // across the plane Rayleigh scattering is the same to all sides
+    let [low, high] = [0, 90].map(|degree| blue(&across, degree));
+    assert!(low.abs_diff(high) <= 1 && high > 200, "{low} {high}");
+    assert!(blue(&parallel, 0) > 200);
+
+    let unpolarised = sphere(1e-6, visible(9), degrees(0.0, 180.0, 181), Quantity::PhaseFunction);
+    let error = strip::png(&unpolarised, 0.0, Polarisation::Parallel, range, (9, 1)).unwrap_err();
+    assert!(error.to_string().starts_with("polarisation = parallel"), "{error}");
 }

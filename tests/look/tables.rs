@@ -107,6 +107,7 @@ fn slab(
         tolerance_met: None,
         error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
         left_out: 0.0,
+        methods: Vec::new(),
     }
 }
 

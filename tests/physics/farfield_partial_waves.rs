@@ -1,6 +1,7 @@
 //! Orders of small particles as sums over partial waves from rays, against Debye terms: a sphere, and one
 //! flattened by 1e-7 with the light aslant, over all scattering angles and both amplitudes.
 
+use gonio::farfield::assignment::Thresholds;
 use gonio::farfield::partial_waves::PartialWaves;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{Engine, Plan};
@@ -15,7 +16,7 @@ use std::f64::consts::PI;
 fn error(shape: &Shape, order: u32, x: f64) -> f64 {
     let index = Complex64::new(1.333, 0.0);
     let tracer = Tracer::new(shape, index, x, order).with_curved_interface(x);
-    let (waves, missed) = PartialWaves::new(&tracer, &[order], x);
+    let (waves, missed) = PartialWaves::new(&tracer, &[order], x, &Thresholds::MEASURED);
     assert!(missed.is_empty());
     let theta: Vec<f64> = (0..=1000).map(|k| PI * f64::from(k) / 1000.0).collect();
     let mut found = vec![AmplitudeMatrix::default(); theta.len()];

@@ -22,6 +22,10 @@ pub struct CutLayout {
     /// Pieces of each plain segment; empty while the layout is being found.
     pub knots: Vec<usize>,
     pub size_parameter: f64,
+    /// Whether the order's rays cross the axis again.
+    pub high: bool,
+    /// Whether a fold's rays may come near total reflection inside.
+    pub near_critical: bool,
     /// Where an integral takes over from rays near the rim.
     pub rim: Option<NearGrazingLayout>,
     /// Where the edge wave takes over from reflected rays, by the cosine of the grazing angle.
@@ -71,5 +75,27 @@ impl FoldLayout {
             halves.chain(knots.last().copied()).collect()
         };
         Self { integral: self.integral.as_ref().map(between), ..*self }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twice the knots stand between those of before; the reach of a fold stays.
+    #[test]
+    fn a_finer_fold_has_knots_half_way() {
+        let fold = FoldLayout {
+            dark: 0.1,
+            lit: 0.2,
+            per_angle: 40.0,
+            integral: Some(vec![-0.1, 0.0, 0.05, 0.2]),
+        };
+        let finer = fold.finer();
+        let expected = [-0.1, -0.05, 0.0, 0.025, 0.05, 0.125, 0.2];
+        let found = finer.integral.unwrap();
+        assert!(found.len() == 7 && found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-15));
+        assert_eq!((finer.dark, finer.lit, finer.per_angle), (0.1, 0.2, 40.0));
+        assert!(FoldLayout { integral: None, ..fold }.finer().integral.is_none());
     }
 }

@@ -15,15 +15,11 @@ use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::fold::Fold;
 use crate::farfield::deflection::scattering_plane::Node;
-use crate::trace::Tracer;
 use std::f64::consts::TAU;
 
 /// Squared cosine outside below which the coefficients of reflection run too fast for a series.
 const NEAR_CRITICAL: f64 = 0.02;
 const BELOW_ENTRY: f64 = 0.5;
-/// The order that is served: order 2 meets total reflection far from its bow, and the bows of higher ones
-/// are made too near the rim.
-const ORDER: u32 = 3;
 /// Fresnel zones of a ray within the taper, and the share of the launch points before it.
 const FRESNEL_ZONES: f64 = 12.0;
 const MOST_ROOM: f64 = 0.9;
@@ -43,18 +39,10 @@ const INNER_SHARE: f64 = 0.6;
 const KNOTS_PER_PERIOD: f64 = 8.0;
 const KNOTS_PER_UNIT: f64 = 2.0;
 
-/// Whether an order of a particle may need the integral at all.
-pub(crate) fn serves(tracer: &Tracer, order: u32) -> bool {
-    order == ORDER && !tracer.shape().rotational_symmetry()
-}
-
 /// Whether a ray meets the surface inside near or beyond the critical angle, other than by being near
 /// the rim.
-pub(crate) fn meets_total_reflection(curve: &DeflectionCurve, ray: &Node) -> bool {
+fn meets_total_reflection(curve: &DeflectionCurve, ray: &Node) -> bool {
     let plane = curve.plane();
-    if !serves(plane.tracer, plane.order) {
-        return false;
-    }
     let mut meetings = Vec::new();
     let [u, v] = ray.place;
     plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings);
@@ -191,4 +179,24 @@ pub(crate) fn segment(
     };
     let knots: Vec<_> = places.iter().map(knot).collect();
     knots.iter().flatten().all(|v| v.is_finite()).then_some(Segment { kind: Kind::Wave, knots })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Knots go from the dark side to the last lit direction; closer where the two rays' waves beat faster.
+    #[test]
+    fn knots_are_closer_where_waves_beat_faster() {
+        let (dark, lit, per_angle) = (0.1, 0.4, 60.0);
+        let places = knots([dark, lit], per_angle);
+        assert_eq!((places[0], *places.last().unwrap()), (-dark, lit));
+        let steps: Vec<f64> = places.windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(steps.iter().all(|&step| step > 0.0));
+        // on the dark side by the Airy function's unit, on the lit side by its period
+        assert!((steps[0] * per_angle - 1.0 / KNOTS_PER_UNIT).abs() < 1e-12);
+        let k = places.len() - 4;
+        let period = TAU / (places[k] * per_angle).sqrt();
+        assert!((steps[k] * per_angle - period / KNOTS_PER_PERIOD).abs() < 1e-9);
+    }
 }
