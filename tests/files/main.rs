@@ -4,6 +4,7 @@
 
 mod support;
 
+mod assignment;
 mod fuzz_readers;
 mod hdf5_table;
 mod reliability_disk;

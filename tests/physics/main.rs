@@ -4,7 +4,6 @@
 mod support;
 
 mod absorption_against_mie;
-mod assignment;
 mod color_reference;
 mod dyed_drop;
 mod error_estimate;

@@ -126,7 +126,7 @@ fn bounding_box(sheet: &Sheet, triangle: usize) -> Aabb {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sheets::{self, Corner};
+    use super::super::sheets::{Corner, sheets};
     use super::*;
     use crate::math::vec3::Field;
     use crate::shape::Shape;
@@ -255,7 +255,7 @@ mod tests {
         let shape = Shape::sphere();
         let tracer = Tracer::new(&shape, Complex64::new(1.33, 0.0), 1e3, 1);
         let wavefront = Wavefront::corners(&shape, 40, 32, 0.0);
-        let sphere = CollectingSphere::new(sheets::sheets(&tracer, &wavefront, &[1]));
+        let sphere = CollectingSphere::new(sheets(&tracer, &wavefront, &[1]));
         for (x, z) in [(0.0, 1.0), (1e-12, 1.0), (0.1, 0.995)] {
             assert_eq!(hits(&sphere, Vec3 { x, y: 0.0, z }).len(), 1, "at {x}");
         }
