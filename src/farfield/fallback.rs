@@ -20,6 +20,9 @@ struct Part {
     method: Method,
     /// Share of its amplitude by which its wave may be wrong, measured against Debye terms.
     doubt: f64,
+    /// Whether that is a share of the wave's median over the scattering angle where it is brighter: what is
+    /// wrong of a deformed body's bows and rings stands in all directions, not in its bright ones.
+    everywhere: bool,
 }
 
 enum Method {
@@ -34,10 +37,12 @@ const FOLD_JACOBIAN: f64 = 0.5;
 const PATCH_RINGS: f64 = 90.0;
 
 impl FallbackField {
-    /// What an assignment leaves beside scattering planes; `waves` are its partial waves.
+    /// What an assignment leaves beside scattering planes; `waves` are its partial waves, of
+    /// a body whose outline has some deformation.
     pub(crate) fn new(
         tracer: &Tracer,
         waves: Option<PartialWaves>,
+        deformation: f64,
         assignment: &Assignment,
         settings: &FarFieldSettings,
     ) -> Self {
@@ -45,19 +50,23 @@ impl FallbackField {
         let (reflected, transmitted): (Vec<u32>, Vec<u32>) =
             by_patches.into_iter().partition(|&order| order == 0);
         let by_beams = assignment.orders_of(assignment::Method::Beams);
-        // theirs is measured on the sphere of equal volume
-        let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt: 0.0 };
+        // of a sphere theirs is measured
+        let doubt =
+            assignment.thresholds().doubt_of_deformed_waves(settings.size_parameter, deformation);
+        let of_waves =
+            |waves| Part { method: Method::PartialWaves(waves), doubt, everywhere: true };
         let mut parts: Vec<Part> = waves.map(of_waves).into_iter().collect();
         for orders in [reflected, transmitted] {
             if let Some(&lowest) = orders.iter().min() {
                 let method = patches(tracer, &orders, settings);
-                parts.push(Part { method, doubt: assignment.error_of(lowest) });
+                parts.push(Part { method, doubt: assignment.error_of(lowest), everywhere: false });
             }
         }
         if let Some(&lowest) = by_beams.iter().min() {
             let (azimuths, x) = (settings.azimuths, settings.size_parameter);
             let beams = GaussianBeams::new(tracer, &by_beams, azimuths, x);
-            parts.push(Part { method: Method::Beams(beams), doubt: assignment.error_of(lowest) });
+            let doubt = assignment.error_of(lowest);
+            parts.push(Part { method: Method::Beams(beams), doubt, everywhere: false });
         }
         Self(parts)
     }
@@ -76,13 +85,21 @@ impl FallbackField {
         for part in &self.0 {
             let mut waves = vec![AmplitudeMatrix::default(); theta.len()];
             part.add(theta, phi, &mut waves);
+            let most = if part.everywhere { median(&waves) } else { f64::INFINITY };
             for (i, wave) in waves.into_iter().enumerate() {
                 sums[i] += wave;
-                wrong[i] += part.doubt * part.doubt * wave.s11();
+                wrong[i] += part.doubt * part.doubt * wave.s11().min(most);
             }
         }
         (sums, wrong)
     }
+}
+
+/// The median of `S11` over some directions.
+fn median(waves: &[AmplitudeMatrix]) -> f64 {
+    let mut sizes: Vec<f64> = waves.iter().map(AmplitudeMatrix::s11).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
 }
 
 impl Part {
