@@ -42,11 +42,7 @@ impl BandErrors {
     }
 
     /// Of a sum of Debye terms; NaN for single orders, which stand for themselves.
-    pub fn of_terms(
-        series: &DebyeSeries,
-        terms: &[Term],
-        sphere: &Sphere,
-    ) -> Self {
+    pub fn of_terms(series: &DebyeSeries, terms: &[Term], sphere: &Sphere) -> Self {
         let count = terms.len().saturating_sub(1) as u32;
         let whole = (0..count).all(|order| terms.contains(&Term::Order(order)));
         if !(whole && count > 0 && terms.contains(&Term::Diffraction)) {
@@ -93,8 +89,7 @@ mod tests {
     use super::*;
 
     fn errors(x: f64, index: Complex64, last: u32) -> BandErrors {
-        let terms: Vec<Term> =
-            (0..=last).map(Term::Order).chain([Term::Diffraction]).collect();
+        let terms: Vec<Term> = (0..=last).map(Term::Order).chain([Term::Diffraction]).collect();
         let series = DebyeSeries::new(x, index).unwrap();
         BandErrors::of_terms(&series, &terms, &Sphere::new(x, index).unwrap())
     }

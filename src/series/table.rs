@@ -7,9 +7,9 @@
 //! Means over drop sizes, over a band of wavelengths and over the sun's disc enter here
 //! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
+use super::SeriesError;
 use super::debye::{DebyeSeries, Term};
 use super::debye_error::BandErrors;
-use super::SeriesError;
 use super::lorenz_mie::{Sphere, sums};
 use super::mean::{Ensemble, MeanError};
 use super::sun_disc::Disc;
@@ -184,7 +184,12 @@ impl SphereJob<'_> {
             Source::LorenzMie => {
                 let (s1, s2) = sphere.amplitudes(&[0.0])[0];
                 let forward = TAU * area * (s1 + s2).re;
-                (sphere.amplitudes_parallel(theta), Some(forward), 0.0, BandErrors::even(SERIES_ERROR))
+                (
+                    sphere.amplitudes_parallel(theta),
+                    Some(forward),
+                    0.0,
+                    BandErrors::even(SERIES_ERROR),
+                )
             }
             // Cross-sections are those of the whole sphere, the terms part of it.
             Source::Debye(terms) => {
