@@ -106,6 +106,19 @@ impl<'a> FarField<'a> {
         orders
     }
 
+    /// `2πr/λ`.
+    pub fn size_parameter(&self) -> f64 {
+        self.size_parameter
+    }
+
+    /// Whether any azimuth can be asked for, and not only those that it was made for.
+    pub fn serves_any_azimuth(&self) -> bool {
+        match &self.source {
+            Source::Patches(..) => true,
+            Source::Planes(planes, _) => planes.serve_any_azimuth(),
+        }
+    }
+
     /// The wave that goes straight on.
     pub fn forward_wave(&self) -> ForwardWave<'_> {
         let edge = match &self.source {
