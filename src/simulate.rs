@@ -63,6 +63,7 @@ impl Blame for SimulateError {
             SimulateError::Mean(error) => error.fault(),
             SimulateError::Energy { .. }
             | SimulateError::Wrong(_)
+            | SimulateError::Imbalance { .. }
             | SimulateError::Amplitudes(_) => Fault::Run,
         }
     }

@@ -389,7 +389,7 @@ mod tests {
         assert!((fields[0][1] - at(0.4).dot(second)).norm() < 1e-15);
         // two channels, then three for each of two meetings, and the last turn
         let row = |a: f64, b: f64| vec![0.0, 0.0, 1.0, 1.0, a, 1.0, 1.0, 0.1, b];
-        let mut rows = vec![row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
+        let mut rows = [row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
         unwrap_turns(&mut rows, 2, 1);
         assert!(
             (rows[1][4] - (TAU - 3.1)).abs() < 1e-15 && (rows[2][4] - (TAU - 3.0)).abs() < 1e-15
