@@ -1,15 +1,17 @@
 //! How far one table is from another: numbers by angular band and polarisation, shifts of maxima,
-//! energy, and a page to look at ([`page`]).
+//! energy, and a page to look at (`page`).
 //!
 //! Errors are taken over all wavelengths and azimuths that the tables share; curves and maxima at
 //! the first azimuth of each table and at the wavelength of the middle of the reference, which is
 //! interpolated at the angles of the other.
 
 mod bands;
+#[cfg(feature = "pictures")]
 mod charts;
 mod curve;
 mod energy;
 mod maxima;
+#[cfg(feature = "pictures")]
 pub mod page;
 
 pub use bands::{BANDS, BandReport};

@@ -22,6 +22,7 @@ pub mod mitsuba;
 pub mod notes;
 pub mod sasktran2;
 pub mod size_grid;
+#[cfg(feature = "pictures")]
 pub mod strip;
 
 use crate::color::ColorError;
@@ -34,6 +35,7 @@ pub enum ExportError {
     Invalid { field: String, value: String, accepted: String },
     #[error("colours: {0}")]
     Color(#[from] ColorError),
+    #[cfg(feature = "pictures")]
     #[error("picture: {0}")]
     Png(#[from] png::EncodingError),
     #[error(transparent)]
@@ -46,6 +48,7 @@ impl ExportError {
         match self {
             ExportError::Invalid { .. } | ExportError::Color(_) => true,
             ExportError::Table(error) => error.is_wrong_input(),
+            #[cfg(feature = "pictures")]
             ExportError::Png(_) => false,
         }
     }

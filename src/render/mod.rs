@@ -5,21 +5,30 @@
 //! `camera` sees of the sky, averaged over the sun's disc (`sky`) → sRGB → PNG.
 
 pub mod camera;
+#[cfg(feature = "pictures")]
 mod color_diagram;
 mod directions;
+#[cfg(feature = "pictures")]
 mod error_strip;
+#[cfg(feature = "pictures")]
 mod font;
+#[cfg(feature = "pictures")]
 mod heat_map;
 mod picture;
+#[cfg(feature = "pictures")]
 pub mod preview;
 pub mod sky;
 mod sun_smoothing;
+#[cfg(feature = "pictures")]
 mod ticks;
 mod tristimulus;
 
+#[cfg(feature = "pictures")]
 pub use color_diagram::ColorDiagram;
 pub use directions::DirectionGrid;
+#[cfg(feature = "pictures")]
 pub use font::{FONT, ensure_font};
+#[cfg(feature = "pictures")]
 pub use heat_map::{colour_bar, draw_pixels};
 pub use picture::{Picture, write_complete};
 pub use sun_smoothing::smooth_over_sun;
@@ -41,6 +50,7 @@ pub enum RenderError {
     Invalid { field: String, value: String, accepted: String },
 }
 
+#[cfg(feature = "pictures")]
 impl<E: std::error::Error + Send + Sync> From<plotters::drawing::DrawingAreaErrorKind<E>>
     for RenderError
 {
