@@ -75,8 +75,11 @@ pub struct EnergyBudget {
 /// All that does not change from slab to slab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableHeader {
+    /// Where it is tabulated.
     pub axes: Axes,
+    /// What is tabulated.
     pub quantity: Quantity,
+    /// How the forward peak is in it.
     pub forward_peak: ForwardPeak,
     /// The scattering does not depend on azimuth; `axes.phi` has one value.
     pub rotational_symmetry: bool,
@@ -114,6 +117,7 @@ pub struct Slab {
     pub caustic_order: Option<Array2<u8>>,
     /// Cross-sections, m².
     pub scattering_cross_section: f64,
+    /// Power taken from the light per irradiance, m².
     pub extinction_cross_section: f64,
     /// What is absorbed, counted apart from the two others, m².
     pub absorption_cross_section: f64,
@@ -156,6 +160,7 @@ pub fn error_theta(band: usize) -> f64 {
 /// A whole table in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseTable {
+    /// All that the slabs share.
     pub header: TableHeader,
     /// One per wavelength, in the order of `header.axes.wavelength`.
     pub slabs: Vec<Slab>,

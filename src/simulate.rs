@@ -27,6 +27,7 @@ use std::f64::consts::{PI, TAU};
 
 /// What can go wrong on the main path.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum SimulateError {
     #[error(transparent)]
     Plan(#[from] PlanError),
@@ -232,7 +233,9 @@ pub fn worth_of_rays(
 /// Cross sections in units of the squared radius.
 #[derive(Clone, Copy, Debug)]
 pub struct CrossSections {
+    /// What the light loses.
     pub extinction: f64,
+    /// What turns into heat.
     pub absorption: f64,
 }
 
@@ -253,6 +256,7 @@ impl CrossSections {
         Self { extinction, absorption: area * absorbed + beyond }
     }
 
+    /// Extinction less absorption.
     pub fn scattering(&self) -> f64 {
         self.extinction - self.absorption
     }
@@ -319,10 +323,11 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
             Engine::Debye => "debye",
         }
         .into(),
-        shape: match scene.particle {
+        shape: match &scene.particle {
             Particle::Sphere { .. } => "sphere",
             Particle::Spheroid { .. } => "spheroid",
             Particle::Raindrop { .. } => "raindrop",
+            Particle::Own { body, .. } => body.name(),
         }
         .into(),
         radius: plan.radius,

@@ -27,6 +27,7 @@ use std::path::PathBuf;
 
 /// What went wrong with a batch.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum BatchError {
     #[error("{}: {message}", path.display())]
     Plan { path: PathBuf, message: String },

@@ -37,6 +37,7 @@ pub use sun::{LimbDarkening, SUN_ANGULAR_RADIUS, SunDisc};
 
 /// What is wrong with a request for a colour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ColorError {
     #[error(
         "illuminant = \"{0}\": expected D65, A, E, a daylight such as D50, a black body such as \

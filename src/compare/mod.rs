@@ -25,6 +25,7 @@ use serde::Serialize;
 
 /// Why two tables cannot be compared.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum CompareError {
     #[error("{what}: {left} and {right} have nothing in common to compare")]
     Disjoint { what: &'static str, left: String, right: String },
@@ -33,7 +34,9 @@ pub enum CompareError {
 /// A table with its name and what it cost.
 #[derive(Clone, Debug)]
 pub struct Entry {
+    /// What the page calls it.
     pub name: String,
+    /// The table.
     pub table: PhaseTable,
     /// Computing time; nothing for a table read from a file.
     pub seconds: Option<f64>,
@@ -42,8 +45,11 @@ pub struct Entry {
 /// One reference and what is held against it.
 #[derive(Clone, Debug)]
 pub struct Case {
+    /// What the page calls it.
     pub name: String,
+    /// What the others are compared with.
     pub reference: Entry,
+    /// What is compared.
     pub tests: Vec<Entry>,
     /// Single orders by the method that is tested, each with the exact term.
     pub orders: Vec<OrderPair>,
@@ -52,47 +58,67 @@ pub struct Case {
 /// One order, tested and exact.
 #[derive(Clone, Debug)]
 pub struct OrderPair {
+    /// Number of chords.
     pub order: u32,
+    /// By the method that is judged.
     pub test: Entry,
+    /// By the exact term.
     pub exact: Entry,
 }
 
 /// Everything measured on a case.
 #[derive(Clone, Debug, Serialize)]
 pub struct CaseReport {
+    /// As of the case.
     pub name: String,
+    /// What the reference is called.
     pub reference: String,
+    /// Time that the reference took.
     pub reference_seconds: Option<f64>,
+    /// Cross-sections of the reference.
     pub reference_energy: Option<EnergyReport>,
     /// The scene of the reference, all keys, as TOML.
     pub scene: String,
     /// Of the curves and the maxima.
     pub wavelength_nm: f64,
+    /// One per table compared.
     pub tests: Vec<TestReport>,
+    /// One per order compared.
     pub orders: Vec<OrderReport>,
 }
 
 /// One table against the reference.
 #[derive(Clone, Debug, Serialize)]
 pub struct TestReport {
+    /// What it is called.
     pub name: String,
+    /// Time that it took.
     pub seconds: Option<f64>,
+    /// The scene as TOML.
     pub scene: String,
     /// How many of them the tables share, and were compared.
     pub wavelengths: usize,
+    /// Azimuths that both tables share.
     pub azimuths: usize,
+    /// Errors by band and polarisation.
     pub bands: Vec<BandReport>,
     #[serde(flatten)]
+    /// Shifts of maxima.
     pub maxima: Maxima,
+    /// Cross-sections, where the table has them.
     pub energy: Option<EnergyReport>,
 }
 
 /// One order against the exact term.
 #[derive(Clone, Debug, Serialize)]
 pub struct OrderReport {
+    /// Number of chords.
     pub order: u32,
+    /// Time of the method that is judged.
     pub seconds: Option<f64>,
+    /// Time of the exact term.
     pub exact_seconds: Option<f64>,
+    /// Errors by band and polarisation.
     pub bands: Vec<BandReport>,
 }
 

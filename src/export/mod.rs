@@ -30,6 +30,7 @@ use crate::hdf5::TableError;
 
 /// What went wrong with an export.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ExportError {
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },

@@ -92,6 +92,7 @@ use std::path::{Path, PathBuf};
 
 /// What went wrong with a table or its file: which one, what, and what would do.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum TableError {
     #[error("{}: the file exists; choose another name or ask to overwrite it (--overwrite)", path.display())]
     Exists { path: PathBuf },

@@ -27,6 +27,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum LeeError {
     #[error(transparent)]
     Color(#[from] ColorError),
@@ -49,12 +50,15 @@ pub struct Request {
     pub radii: Vec<f64>,
     /// Scattering angles, radians, ascending.
     pub theta: Vec<f64>,
+    /// What the drops are of.
     pub medium: Medium,
     /// Average over the sun's disc.
     pub sun_disc: bool,
     /// Standard deviation of ln(radius) about each column's radius; 0 for drops of one size.
     pub size_spread: f64,
+    /// What shines on them.
     pub illuminant: Illuminant,
+    /// Whose eyes.
     pub observer: Observer,
     /// Factor on the numbers of angles and wavelengths; 1 is meant for ΔE below 1.
     pub fineness: f64,
@@ -63,7 +67,9 @@ pub struct Request {
 /// The diagram: XYZ of the differential cross-section over the geometrical one, sr⁻¹.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagram {
+    /// Radii, metres, ascending.
     pub radii: Vec<f64>,
+    /// Scattering angles, radians, ascending.
     pub theta: Vec<f64>,
     /// Per radius and angle: XYZ of the parallel and of the perpendicular part.
     pub xyz: Vec<Vec<[[f64; 3]; 2]>>,
@@ -72,8 +78,11 @@ pub struct Diagram {
 /// Light that an observer with or without a filter sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Polarisation {
+    /// All of it.
     Total,
+    /// The electric field in the scattering plane.
     Parallel,
+    /// The electric field normal to the scattering plane.
     Perpendicular,
 }
 
@@ -82,7 +91,9 @@ pub enum Polarisation {
 pub struct Drop {
     /// Radius of equal volume, and wavelength in vacuum, metres.
     pub radius: f64,
+    /// Wavelength in vacuum, metres.
     pub wavelength: f64,
+    /// Index of the drop.
     pub index: Complex64,
 }
 

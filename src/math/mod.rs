@@ -8,6 +8,7 @@ pub mod fused;
 pub mod gauss_legendre;
 pub mod half_turn;
 pub mod interpolate;
+pub mod jet;
 pub mod lane_fourier;
 pub mod monotone;
 pub mod phase;

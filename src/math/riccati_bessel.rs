@@ -10,6 +10,7 @@ use std::ops::{Mul, Sub};
 
 /// A field in which the ratio recurrence runs: real for a transparent sphere, complex otherwise.
 pub trait Field: Copy + Mul<f64, Output = Self> + Sub<Output = Self> {
+    /// Zero of the field.
     const ZERO: Self;
     /// The reciprocal; an exact zero is nudged by a rounding error of `scale`, so that a pole of
     /// the logarithmic derivative stays finite.
@@ -75,7 +76,9 @@ pub fn ratios<F: Field>(z: F, top: usize) -> Vec<F> {
 
 /// ψ_n(x) and χ_n(x) of a real argument, n = 0 … `top`.
 pub struct PsiChi {
+    /// `ψ_n`, regular at the origin.
     pub psi: Vec<f64>,
+    /// `χ_n`, irregular at the origin.
     pub chi: Vec<f64>,
     /// `u_n = ψ_n/ψ_{n-1}` for n = 1 … `top + 1`.
     pub ratio: Vec<f64>,

@@ -18,6 +18,7 @@ mod index_text;
 pub mod kramers_kronig;
 mod library;
 mod material;
+mod own;
 mod refractive_index_info;
 mod resolve;
 mod samples;
@@ -41,6 +42,7 @@ pub use formula::Formula;
 pub use index_text::parse_index;
 pub use library::{LibraryEntry, list};
 pub use material::{Material, RealIndex};
+pub use own::OwnMedium;
 pub use samples::{DataCurve, Samples};
 pub use solution::{Dye, Solution};
 pub use spec::{MediumSpec, NamedSpec};
@@ -54,6 +56,7 @@ use std::sync::Arc;
 
 /// What went wrong with a medium: the field or file, the value, and what is accepted.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum MediumError {
     /// Numbers are nanometres with as many digits as tell them apart.
     #[error("wavelength {wavelength} nm is outside the data of {name} ({range}){hint}")]
@@ -78,17 +81,32 @@ pub enum Medium {
     /// The same index at every wavelength.
     Constant(Complex64),
     /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables.
-    Water { temperature: f64 },
+    Water {
+        /// Kelvin.
+        temperature: f64,
+    },
     /// Water or steam of any density (kg/m³), temperature in kelvin.
-    WaterOfDensity { temperature: f64, density: f64 },
+    WaterOfDensity {
+        /// Kelvin.
+        temperature: f64,
+        /// kg/m³.
+        density: f64,
+    },
     /// Sea water, temperature in kelvin, salinity in g/kg.
-    SeaWater { temperature: f64, salinity: f64 },
+    SeaWater {
+        /// Kelvin.
+        temperature: f64,
+        /// g/kg.
+        salinity: f64,
+    },
     /// Distilled water after Daimon & Masumura.
     Daimon(Arc<Daimon>),
     /// A material by a formula or a table.
     Material(Arc<Material>),
     /// A dye in a host.
     Solution(Arc<Solution>),
+    /// A function of the wavelength.
+    Own(OwnMedium),
 }
 
 impl Medium {
@@ -118,6 +136,7 @@ impl Medium {
             Medium::Daimon(water) => water.index(wavelength),
             Medium::Material(material) => material.index(wavelength),
             Medium::Solution(solution) => solution.index(wavelength),
+            Medium::Own(own) => own.index(wavelength),
         }
     }
 
@@ -130,6 +149,7 @@ impl Medium {
             Medium::Daimon(water) => water.range(),
             Medium::Material(material) => material.range,
             Medium::Solution(solution) => solution.range(),
+            Medium::Own(own) => own.range(),
         }
     }
 
@@ -148,6 +168,7 @@ impl Medium {
             Medium::Daimon(water) => format!("water-daimon at {}", celsius(water.temperature())),
             Medium::Material(material) => material.name.clone(),
             Medium::Solution(solution) => solution.name(),
+            Medium::Own(own) => own.name().into(),
         }
     }
 
@@ -169,6 +190,7 @@ impl Medium {
             }
             Medium::Material(material) => material.source.clone(),
             Medium::Solution(solution) => solution.source(),
+            Medium::Own(_) => "a function of its user".into(),
         }
     }
 

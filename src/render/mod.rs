@@ -39,6 +39,7 @@ use std::path::PathBuf;
 
 /// Why a picture cannot be made.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum RenderError {
     #[error(transparent)]
     Color(#[from] ColorError),

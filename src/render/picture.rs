@@ -7,7 +7,9 @@ use std::path::Path;
 /// 8-bit sRGB, rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
+    /// Pixels across.
     pub width: usize,
+    /// Pixels down.
     pub height: usize,
     /// `3 · width · height` bytes.
     pub rgb: Vec<u8>,

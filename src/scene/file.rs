@@ -16,9 +16,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneFile {
+    /// What scatters.
     pub particle: ParticleKeys,
+    /// What shines on it.
     pub light: LightKeys,
+    /// What is tabulated.
     pub table: TableKeys,
+    /// How it is computed.
     pub model: ModelKeys,
 }
 
@@ -28,12 +32,16 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields, default)]
 pub struct ParticleKeys {
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Kind of body.
     pub shape: Option<Choice<ShapeName>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Radius of the sphere of equal volume, mm.
     pub radius_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Radius of the sphere of equal volume, µm.
     pub radius_um: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Diameter of the sphere of equal volume, mm.
     pub diameter_mm: Option<f64>,
     /// Many spheres in place of one: takes the place of the sizes above.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -48,6 +56,7 @@ pub struct ParticleKeys {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature_c: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// What the particle is made of.
     pub medium: Option<MediumSpec>,
     /// Density of the medium, where the library does not know it or it is another.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -59,13 +68,16 @@ pub struct ParticleKeys {
 #[serde(deny_unknown_fields, default)]
 pub struct LightKeys {
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Sun above the horizon, degrees.
     pub sun_elevation_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Wavelengths in vacuum.
     pub wavelengths_nm: Option<Grid>,
     /// Each wavelength stands for a band of this full width at half maximum.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bandwidth_nm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Smoothing by the sun's disc.
     pub sun_disc: Option<Choice<SunDisc>>,
 }
 
@@ -74,15 +86,19 @@ pub struct LightKeys {
 #[serde(deny_unknown_fields, default)]
 pub struct TableKeys {
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// What is tabulated per direction.
     pub quantity: Option<Choice<Quantity>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// How the forward peak enters.
     pub forward_peak: Option<Choice<ForwardPeak>>,
     /// Keep this many bits of the mantissa of each value, for smaller files; absent: all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bit_round: Option<u8>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Scattering angles, 0 = forward.
     pub theta_deg: Option<Grid>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Azimuths, 0 = upper vertical half-plane.
     pub azimuth_deg: Option<Grid>,
 }
 
@@ -91,12 +107,16 @@ pub struct TableKeys {
 #[serde(deny_unknown_fields, default)]
 pub struct ModelKeys {
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Rays or an exact series.
     pub method: Option<Choice<Method>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Whether rays interfere.
     pub interference: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// How rays diffract.
     pub diffraction: Option<Choice<Diffraction>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    /// Orders summed.
     pub orders: Option<Orders>,
     /// Relative error asked for.
     #[serde(skip_serializing_if = "Option::is_none")]

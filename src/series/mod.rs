@@ -27,6 +27,7 @@ pub const MAX_TERMS: usize = 20_000_000;
 
 /// What is wrong with the input of a series.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum SeriesError {
     #[error("size parameter = {0}: accepted are finite numbers of at least {MIN_SIZE_PARAMETER:e}")]
     SizeParameter(f64),
@@ -47,8 +48,11 @@ pub enum SeriesError {
 /// Efficiencies (cross-section over πa²) and the asymmetry parameter of a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Efficiencies {
+    /// Extinction over the shadow's area.
     pub q_ext: f64,
+    /// Scattering over the shadow's area.
     pub q_sca: f64,
+    /// Absorption over the shadow's area.
     pub q_abs: f64,
     /// Radar back-scattering efficiency `4 |S(180°)|²/x²`.
     pub q_back: f64,

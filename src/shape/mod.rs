@@ -7,12 +7,14 @@
 //! follow for all kinds alike.
 
 mod level;
+mod own;
 mod raindrop;
 mod silhouette;
 mod sphere;
 mod spheroid;
 
 pub use level::{Level, Slope, Tangent};
+pub use own::{Outline, OwnBody};
 pub use raindrop::{Raindrop, RaindropModel};
 pub use silhouette::Silhouette;
 
@@ -21,24 +23,33 @@ use crate::math::vec3::Vec3;
 
 /// What went wrong with a shape.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ShapeError {
     #[error("radius {radius_mm} mm is outside the drop model {model} ({from_mm} to {to_mm} mm)")]
     RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
     #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
     AxisRatio(f64),
+    #[error("shape \"{name}\": {fault}; accepted: {accepted}")]
+    OwnBody { name: String, fault: String, accepted: &'static str },
 }
 
 /// The kind of body, its equal-volume sphere scaled to radius 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
+    /// A sphere.
     Sphere,
+    /// A spheroid.
     Spheroid(spheroid::Spheroid),
+    /// A falling raindrop.
     Raindrop(Raindrop),
+    /// One that is none of these, by its own formula.
+    Own(OwnBody),
 }
 
 /// A body, and the direction of its axis in the frame of the light (see [`crate::optics`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
+    /// The body itself.
     pub body: Body,
     /// Unit vector from the body's centre to its lower pole, in the frame of the light.
     pub down: Vec3<f64>,
@@ -66,6 +77,11 @@ impl Shape {
         Ok(Self { body, down: down(sun_elevation) })
     }
 
+    /// A body by its own formula (see [`Outline`]) with the sun at an elevation (radians).
+    pub fn own(body: OwnBody, sun_elevation: f64) -> Self {
+        Self { body: Body::Own(body), down: down(sun_elevation) }
+    }
+
     /// True when scattering cannot depend on azimuth: a sphere, or light along the axis.
     pub fn rotational_symmetry(&self) -> bool {
         self.is_sphere() || self.down.x.abs() < 1e-12
@@ -77,6 +93,7 @@ impl Shape {
             Body::Sphere => true,
             Body::Spheroid(spheroid) => spheroid.is_sphere(),
             Body::Raindrop(drop) => drop.is_sphere(),
+            Body::Own(own) => own.is_sphere(),
         }
     }
 
@@ -86,6 +103,7 @@ impl Shape {
             Body::Sphere => sphere::level(q),
             Body::Spheroid(spheroid) => spheroid.level(q, depth),
             Body::Raindrop(drop) => drop.level(q, depth),
+            Body::Own(own) => own.level(q, depth),
         }
     }
 
@@ -95,6 +113,7 @@ impl Shape {
             Body::Sphere => sphere::slope(q),
             Body::Spheroid(spheroid) => spheroid.slope(q, depth),
             Body::Raindrop(drop) => drop.slope(q, depth),
+            Body::Own(own) => own.slope(q, depth),
         }
     }
 
@@ -103,6 +122,7 @@ impl Shape {
         match &self.body {
             Body::Sphere | Body::Spheroid(_) => 0.0,
             Body::Raindrop(_) => raindrop::ROUGH_CORE,
+            Body::Own(own) => own.rough_core(),
         }
     }
 
@@ -112,6 +132,7 @@ impl Shape {
             Body::Sphere => 1.0,
             Body::Spheroid(spheroid) => spheroid.bounding_radius(),
             Body::Raindrop(drop) => drop.bounding_radius(),
+            Body::Own(own) => own.bounding_radius(),
         }
     }
 }
