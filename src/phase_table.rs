@@ -1,5 +1,18 @@
 //! `PhaseTable`: the narrow waist. Everything that computes scattering produces one, wavelength
 //! slab by wavelength slab; everything else (HDF5, pictures, reports, exports) reads nothing but it.
+//!
+//! ```
+//! use gonio::phase_table::Axes;
+//!
+//! let degrees = |values: &[f64]| values.iter().map(|v| v.to_radians()).collect::<Vec<_>>();
+//! let axes = Axes {
+//!     wavelength: vec![550e-9],
+//!     theta: degrees(&[0.0, 45.0, 90.0, 135.0, 180.0]),
+//!     phi: degrees(&[0.0, 120.0, 240.0]),
+//! };
+//! // the cells of the samples fill the sphere
+//! assert!((axes.solid_angle().sum() - 4.0 * std::f64::consts::PI).abs() < 1e-12);
+//! ```
 
 mod averaging;
 mod bodies;

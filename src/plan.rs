@@ -2,6 +2,17 @@
 //!
 //! Decided once, before anything is traced: the method, symmetries, orders, the wavefront's grid.
 //! Every decision leaves a sentence, so that `gonio plan` can print them.
+//!
+//! ```
+//! use gonio::plan::{Engine, Plan};
+//! use gonio::scene::{Scene, SceneFile};
+//!
+//! let plan = Plan::new(&Scene::built_in(&SceneFile::default())?)?;
+//! assert_eq!(plan.engine, Engine::Meridians);
+//! assert!(plan.orders.contains(&2), "the primary bow");
+//! assert!(plan.reasons.iter().any(|reason| reason.contains("mirror images")));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod cost;
 

@@ -3,6 +3,29 @@
 //! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (meridians, beams, or
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
+//!
+//! ```
+//! use gonio::scene::{Scene, SceneFile, SceneText};
+//! use gonio::simulate;
+//!
+//! let text = r#"
+//! [particle]
+//! shape = "sphere"
+//! radius_um = 5
+//! [light]
+//! wavelengths_nm = [550]
+//! [table]
+//! theta_deg = { from = 0, to = 180, count = 91 }
+//! azimuth_deg = [0]
+//! "#;
+//! let text = SceneText::parse("example", text.into())?;
+//! let scene = Scene::from_text(text, &SceneFile::default())?;
+//! let table = simulate::table(&scene)?;
+//! let slab = &table.slabs[0];
+//! assert!((slab.sum(&table.header.axes) - 1.0).abs() < 1e-6, "a phase function integrates to 1");
+//! assert!(slab.asymmetry > 0.8, "a drop scatters forwards");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};

@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 
 /// Floor, rooms on it. Top floor first. The program (`main.rs`, `cli/`) is the roof: it sees the
 /// library by its name `gonio`, the library never sees it.
-const FLOORS: [(u32, &[&str]); 10] = [
+const FLOORS: [(u32, &[&str]); 11] = [
     (9, &["main", "cli"]),
+    // The pages for people, built for the documentation and tests alone.
+    (8, &["docs"]),
     (8, &["lee", "batch"]),
     (7, &["simulate"]),
     (6, &["tabulate"]),

@@ -4,6 +4,37 @@
 //! Errors are taken over all wavelengths and azimuths that the tables share; curves and maxima at
 //! the first azimuth of each table and at the wavelength of the middle of the reference, which is
 //! interpolated at the angles of the other.
+//!
+//! ```
+//! use gonio::compare::{Case, Entry, measure};
+//! use gonio::scene::{Scene, SceneFile, SceneText};
+//! use gonio::simulate;
+//!
+//! let text = r#"
+//! [particle]
+//! shape = "sphere"
+//! radius_um = 5
+//! [light]
+//! wavelengths_nm = [550]
+//! [table]
+//! theta_deg = { from = 0, to = 180, count = 91 }
+//! azimuth_deg = [0]
+//! "#;
+//! let text = SceneText::parse("example", text.into())?;
+//! let scene = Scene::from_text(text, &SceneFile::default())?;
+//! let entry = |name: &str, table| Entry { name: name.into(), table, seconds: None };
+//! let exact = simulate::table(&scene)?;
+//! let mut brighter = exact.clone();
+//! brighter.slabs[0].values *= 1.01;
+//! let report = measure(&Case {
+//!     name: "one per cent".into(),
+//!     reference: entry("exact", exact),
+//!     tests: vec![entry("brighter", brighter)],
+//!     orders: vec![],
+//! })?;
+//! assert!(report.tests[0].bands.iter().all(|band| (band.l2 - 0.01).abs() < 1e-4));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bands;
 #[cfg(feature = "pictures")]

@@ -5,6 +5,26 @@
 //! XYZ. Interference between rays that took different ways through the drop leaves a ripple far
 //! finer than the disc and the eye; it must average out and not be sampled. [`Sampling`] says how
 //! many angles and wavelengths that takes, [`SunFilter`] averages.
+//!
+//! ```
+//! use gonio::color::{Illuminant, Observer};
+//! use gonio::lee::{Polarisation, Request, spheres};
+//! use gonio::medium::Medium;
+//!
+//! let diagram = spheres(&Request {
+//!     radii: vec![10e-6],
+//!     theta: (136..=144).map(|degrees| f64::from(degrees).to_radians()).collect(),
+//!     medium: Medium::Constant(1.333.into()),
+//!     sun_disc: true,
+//!     size_spread: 0.0,
+//!     illuminant: Illuminant::D65,
+//!     observer: Observer::Cie1931,
+//!     fineness: 1.0,
+//! })?;
+//! let seen = diagram.seen(Polarisation::Total);
+//! assert!(seen[0].iter().all(|xyz| xyz[1] > 0.0));
+//! # Ok::<(), gonio::lee::LeeError>(())
+//! ```
 
 mod about_axis;
 mod sampling;

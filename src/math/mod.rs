@@ -1,4 +1,11 @@
 //! Mathematics without physics: special functions, kernels, interpolation, quadrature.
+//!
+//! ```
+//! use gonio::math::gauss_legendre;
+//!
+//! let integral: f64 = gauss_legendre::nodes(20).iter().map(|(x, weight)| weight * x.exp()).sum();
+//! assert!((integral - (1f64.exp() - (-1f64).exp())).abs() < 1e-14);
+//! ```
 
 pub mod airy;
 pub mod chebyshev;

@@ -2,6 +2,17 @@
 //!
 //! On the dark side of a caustic the ray equations have complex solutions. All shapes here are
 //! analytic, so the same tracing code follows them when its scalar is complex.
+//!
+//! ```
+//! use gonio::math::scalar::Scalar;
+//! use num_complex::Complex64;
+//!
+//! fn hypotenuse<T: Scalar>(a: T, b: T) -> T {
+//!     (a * a + b * b).root()
+//! }
+//! assert_eq!(hypotenuse(3.0, 4.0), 5.0);
+//! assert_eq!(hypotenuse(Complex64::from(3.0), Complex64::from(4.0)).re, 5.0);
+//! ```
 
 use num_complex::Complex64;
 use std::fmt::Debug;

@@ -1,5 +1,13 @@
 //! Three-vectors over a [`Scalar`]. The dot product is bilinear (no conjugation), which is what
 //! analytic continuation of ray equations needs. Real geometry elsewhere uses `glam`.
+//!
+//! ```
+//! use gonio::math::vec3::Vec3;
+//!
+//! let (x, y) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0));
+//! assert_eq!(x.cross(y).z, 1.0);
+//! assert_eq!((x + y * 2.0).dot(y), 2.0);
+//! ```
 
 use super::scalar::Scalar;
 use num_complex::Complex64;

@@ -4,6 +4,21 @@
 //! answers [`Medium::index`]. Outside the data there is an error, never a guess, unless the user
 //! asked for one. Water is relative to vacuum; glasses are as catalogues give them, relative to
 //! air, which this program takes as index 1.
+//!
+//! ```
+//! use gonio::medium::MediumSpec;
+//! use std::path::Path;
+//!
+//! #[derive(serde::Deserialize)]
+//! struct Keys {
+//!     medium: MediumSpec,
+//! }
+//! let keys: Keys = toml::from_str("medium = { name = \"water\", temperature_c = 20 }")?;
+//! let water = keys.medium.resolve(Path::new("."))?;
+//! assert!((water.index(589.3e-9)?.re - 1.33336).abs() < 2e-5);
+//! assert!(water.index(1.0).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod abbe;
 mod agf;

@@ -3,6 +3,14 @@
 //! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s. Stages of a rainbow:
 //! table → XYZ per direction (`tristimulus`) → mixture of drops → what each pixel of the
 //! `camera` sees of the sky, averaged over the sun's disc (`sky`) → sRGB → PNG.
+//!
+//! ```
+//! use gonio::render::camera::Lens;
+//!
+//! // the primary bow, 42° from the antisolar point, through a lens that keeps lines straight
+//! let distance = Lens::Rectilinear.distance(42f64.to_radians()).expect("less than 90°");
+//! assert!((distance - 0.9004).abs() < 1e-4);
+//! ```
 
 pub mod camera;
 #[cfg(feature = "pictures")]

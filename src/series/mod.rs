@@ -2,6 +2,15 @@
 //!
 //! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`]); [`angular`] sums them
 //! over the angles; [`mean`] averages over sizes and wavelengths.
+//!
+//! ```
+//! use gonio::series::lorenz_mie::Sphere;
+//!
+//! // Bohren & Huffman 1983, appendix A: x = 3, m = 1.33 + 10⁻⁸i
+//! let q = Sphere::new(3.0, num_complex::Complex64::new(1.33, 1e-8))?.efficiencies();
+//! assert!((q.q_ext - q.q_sca - q.q_abs).abs() < 1e-12 && q.q_abs > 0.0);
+//! # Ok::<(), gonio::series::SeriesError>(())
+//! ```
 
 pub mod angular;
 mod behind;

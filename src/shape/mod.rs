@@ -5,6 +5,19 @@
 //! below the centre); `F < 0` inside. A kind of shape supplies only this function of two scalars
 //! with its derivatives, for real and for complex points; intersection, normal and curvature
 //! follow for all kinds alike.
+//!
+//! ```
+//! use gonio::shape::{RaindropModel, Shape};
+//!
+//! // a falling drop of 2 mm is flatter than it is wide, and flattest below
+//! let drop = Shape::raindrop(2e-3, RaindropModel::BeardChuang1987, 0.0)?;
+//! let down = drop.down;
+//! let below = drop.radius_towards(down.x, down.y, down.z);
+//! let above = drop.radius_towards(-down.x, -down.y, -down.z);
+//! let aside = drop.radius_towards(0.0, 1.0, 0.0);
+//! assert!(below < above && above < aside);
+//! # Ok::<(), gonio::shape::ShapeError>(())
+//! ```
 
 mod level;
 mod own;

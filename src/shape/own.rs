@@ -320,7 +320,7 @@ mod tests {
         assert!(inverted.contains("not negative at the centre"), "{inverted}");
         let shell = OwnBody::new("shell", Shell).unwrap_err().to_string();
         assert!(shell.contains("more than once"), "{shell}");
-        let needle = OwnBody::new("needle", Ellipse(1.0, 12.0)).unwrap_err().to_string();
+        let needle = OwnBody::new("needle", Ellipse(1.0, 10.5)).unwrap_err().to_string();
         assert!(needle.contains("its radii are"), "{needle}");
     }
 }

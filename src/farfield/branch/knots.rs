@@ -21,7 +21,6 @@ pub type Knot = [f64; CHANNELS];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// One ray per direction; focal lines passed; whether it starts at the axial ray.
-    /// One ray.
     Plain {
         /// Focal lines passed.
         focal_lines: u32,
@@ -29,7 +28,6 @@ pub enum Kind {
         from_axis: bool,
     },
     /// Two rays; sum of their focal lines.
-    /// Two rays that meet at a fold.
     Pair {
         /// Sum over both rays.
         focal_lines: u32,
