@@ -4,10 +4,11 @@
 //! `cargo run --release --example picture_of_methods -- docs/methods.svg` draws it anew; without a name the
 //! picture in `docs/` must be the one that would be drawn.
 
-use gonio::farfield::FarFieldSettings;
+use gonio::farfield::assignment::{Assignment, Method, Thresholds};
 use gonio::farfield::azimuth::plane_set::{Piece, PlaneSet};
 use gonio::farfield::branch::knots::Kind;
 use gonio::farfield::forward::diffraction::ForwardDiffraction;
+use gonio::farfield::{FarField, FarFieldSettings};
 use gonio::shape::Shape;
 use gonio::trace::Tracer;
 use std::f64::consts::{PI, TAU};
@@ -53,8 +54,8 @@ fn look(piece: &Piece) -> (&'static str, &'static str) {
 /// A stretch of scattering angles (degrees, ascending), its colour and words.
 type Bar = ([f64; 2], (&'static str, &'static str));
 
-/// An order that no plane can follow.
-const BEAMS: (&str, &str) = ("#d9c04a", "sum of Gaussian beams");
+/// Colour of an order that no plane can follow.
+const OTHER: &str = "#d9c04a";
 
 /// The bars of a piece.
 fn bars(piece: &Piece) -> Vec<Bar> {
@@ -104,8 +105,9 @@ impl Drawing {
             checked: false,
             azimuths: &[0.0],
         };
-        let planes = PlaneSet::new(&tracer, &settings, &ForwardDiffraction::new(shape));
-        let pieces = planes.pieces();
+        let shadow = ForwardDiffraction::new(shape);
+        let pieces = PlaneSet::new(&tracer, &settings, &shadow, &Thresholds::MEASURED).pieces();
+        let field = FarField::meridians(&tracer, &settings);
         self.text(LEFT, self.y + 15, "start", title);
         let top = self.y + TOP;
         self.y = top;
@@ -113,8 +115,9 @@ impl Drawing {
         for order in ORDERS {
             let mut bars: Vec<Bar> =
                 pieces.iter().filter(|p| p.order == order).flat_map(bars).collect();
-            if planes.irregular.contains(&order) {
-                bars.push(([0.0, 180.0], BEAMS));
+            let assigned = field.assignment().into_iter().flat_map(Assignment::entries);
+            for other in assigned.filter(|a| a.order == order && a.method != Method::Planes) {
+                bars.push(([0.0, 180.0], (OTHER, other.method.words())));
             }
             self.row(order, &bars);
         }

@@ -29,14 +29,15 @@
 //! and the references of scenes and files are pages of [`docs`].
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `lee`, `batch` · `simulate` · `tabulate` · `farfield` · `plan`, `series`, `export` · `hdf5`,
-//! `compare`, `render` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`, `color`,
-//! `size_distribution` · `math`, `pending_file`.
+//! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
+//! `farfield` · `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace` · `optics`, `medium`,
+//! `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
 //!
 //! Features, all on by default: `hdf5` (tables as files, exports, batches; brings C code), `cli` (the program),
 //! `pictures` (previews and diagrams as PNG and SVG, report pages). Without them the physics builds for wheels
 //! and for `wasm32-unknown-unknown`.
 
+pub mod fault;
 pub mod math;
 pub mod pending_file;
 
@@ -50,17 +51,15 @@ pub mod phase_table;
 pub mod scene;
 pub mod trace;
 
-pub mod compare;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-pub mod plan;
-pub mod render;
 pub mod series;
 
 #[cfg(feature = "hdf5")]
 pub mod export;
 pub mod farfield;
 
+pub mod plan;
 pub mod tabulate;
 
 pub mod simulate;
@@ -68,6 +67,11 @@ pub mod simulate;
 #[cfg(feature = "hdf5")]
 pub mod batch;
 pub mod lee;
+pub mod scatter;
+
+pub mod render;
+
+pub mod compare;
 
 #[cfg(any(doc, doctest, test))]
 pub mod docs;

@@ -16,10 +16,12 @@
 
 mod averaging;
 mod bodies;
+mod methods;
 mod validate;
 
 pub use averaging::{Averaging, DiscOfSun};
 pub use bodies::Bodies;
+pub use methods::{FormulaPart, MethodPart, MethodRange};
 pub use validate::InvalidTable;
 
 use ndarray::{Array2, Array3};
@@ -155,6 +157,8 @@ pub struct Slab {
     pub error_by_direction: [f64; ERROR_BANDS],
     /// Share of the scattered power in orders that a list left out; 0 where all that matter are in.
     pub left_out: f64,
+    /// By which method each order was computed; empty where the table does not tell.
+    pub methods: Vec<MethodPart>,
 }
 
 /// Bands of scattering angle for which an error is stated.

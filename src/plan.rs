@@ -14,110 +14,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod acceptance;
 mod cost;
+mod methods;
+mod orders;
 
+pub use acceptance::{DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, PlanError, check_rays, phase_shift};
 pub use cost::Cost;
+pub use methods::PlannedRange;
+pub use orders::last_order;
 
+use crate::farfield::assignment::Thresholds;
 use crate::math::digits::to_digits;
-use crate::medium::MediumError;
-use crate::optics::fresnel;
 use crate::scene::{Diffraction, Method, Orders, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
-
-/// Why a scene cannot be planned.
-#[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say what each case and field is")]
-pub enum PlanError {
-    #[error(transparent)]
-    Shape(#[from] ShapeError),
-    #[error(transparent)]
-    Medium(#[from] MediumError),
-    #[error("method = \"{0}\": the exact series serve spheres only; accepted here: \"rays\"")]
-    SeriesNeedsSphere(&'static str),
-    #[error(
-        "index {index}{place} with size parameter {size_parameter:.0}: light loses more than the ray \
-         picture can follow (k/n must stay below {limit}); use --method mie (method = \"mie\" in a scene) for a sphere"
-    )]
-    TooAbsorbing { index: String, place: String, size_parameter: f64, limit: f64 },
-    #[error(
-        "size parameter {size_parameter:.3e}{place}: rays are accepted from {} to {:e} (below, there \
-         are no rays; above, phases lose their digits); use --method mie (method = \"mie\" in a scene) for a small sphere",
-        RAY_SIZES.0,
-        RAY_SIZES.1
-    )]
-    Size { place: String, size_parameter: f64 },
-    #[error(
-        "index {index}{place} with size parameter {size_parameter:.4}: the phase shift through the \
-         particle, 2x|n - 1| = {phase_shift:.3}, is too small for rays, which are accepted from \
-         {LEAST_PHASE_SHIFT} on (below, the light that passes and the light around the particle are \
-         one wave: extinction by rays is {SOFT_MISS} off); use --method mie (method = \"mie\" in a scene) for a sphere"
-    )]
-    Soft { index: String, place: String, size_parameter: f64, phase_shift: f64 },
-}
-
-/// Size parameters for which rays are accepted.
-pub const RAY_SIZES: (f64, f64) = (1.0, 1e9);
-
-/// Least phase shift `2x|n - 1|` of the central ray for which rays are accepted. Measured against
-/// Lorenz–Mie for n = 0.97, 1.002, 1.02 and 1.1: extinction is 87 % off at 2, 33 % at 3, 13 % at 4 and
-/// 3 to 5 % from 5 to 10, at any index.
-pub const LEAST_PHASE_SHIFT: f64 = 5.0;
-const SOFT_MISS: &str = "13 % at 4, 87 % at 2";
-/// Phase shift below which a warning goes with rays: extinction errs by up to 5 %, and directions
-/// beside the forward peak by much more (the stated error tells).
-pub const DOUBTFUL_PHASE_SHIFT: f64 = 20.0;
-
-/// The phase shift of the central ray against light that passes the particle, radians.
-///
-/// ```
-/// assert_eq!(gonio::plan::phase_shift(1.25.into(), 100.0), 50.0);
-/// ```
-pub fn phase_shift(index: Complex64, size_parameter: f64) -> f64 {
-    2.0 * size_parameter * (index.re - 1.0).abs()
-}
-
-/// Whether rays can serve a particle of this index and size; `place` says where, for the message.
-///
-/// ```
-/// use gonio::plan::check_rays;
-/// assert!(check_rays(1.333.into(), 100.0, "").is_ok());
-/// let error = check_rays(1.002.into(), 100.0, " at 550 nm").unwrap_err().to_string();
-/// assert!(error.contains("at 550 nm") && error.contains("phase shift"), "{error}");
-/// ```
-///
-/// # Errors
-/// Too small or too large a particle, absorption beyond the ray picture, or an index so near 1 that
-/// rays do not part from the light around the particle.
-pub fn check_rays(index: Complex64, size_parameter: f64, place: &str) -> Result<(), PlanError> {
-    let place = || place.to_string();
-    let words = || {
-        if index.im == 0.0 { index.re.to_string() } else { format!("{}+{}i", index.re, index.im) }
-    };
-    if index.im > LARGEST_K_OVER_N * index.re {
-        let limit = LARGEST_K_OVER_N;
-        return Err(PlanError::TooAbsorbing {
-            index: words(),
-            place: place(),
-            size_parameter,
-            limit,
-        });
-    }
-    if !(RAY_SIZES.0..=RAY_SIZES.1).contains(&size_parameter) {
-        return Err(PlanError::Size { place: place(), size_parameter });
-    }
-    let phase_shift = phase_shift(index, size_parameter);
-    if phase_shift < LEAST_PHASE_SHIFT {
-        return Err(PlanError::Soft {
-            index: words(),
-            place: place(),
-            size_parameter,
-            phase_shift,
-        });
-    }
-    Ok(())
-}
 
 /// Who computes the scattering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,6 +73,8 @@ pub struct Plan {
     pub forward_diffraction: bool,
     /// Relative error asked for.
     pub tolerance: f64,
+    /// By which numbers particles are accepted, and each order gets its method.
+    pub thresholds: Thresholds,
     /// Whether rays of flattened particles are checked by a second method; many runs of much the same
     /// particle may do without.
     pub checked: bool,
@@ -172,12 +86,6 @@ pub struct Plan {
     pub reasons: Vec<String>,
 }
 
-/// Beyond this `k/n` the wave inside is too inhomogeneous for real rays.
-pub const LARGEST_K_OVER_N: f64 = 0.03;
-
-/// Highest order that `orders = "auto"` goes to.
-const HIGHEST_ORDER: u32 = 24;
-
 impl Plan {
     /// Plan a scene.
     ///
@@ -185,6 +93,14 @@ impl Plan {
     /// A shape outside its model, a wavelength outside the medium's data, an exact series asked for
     /// a particle that is no sphere, or absorption beyond the ray picture.
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
+        Self::by(scene, Thresholds::MEASURED)
+    }
+
+    /// The same by other numbers than the measured ones.
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn by(scene: &Scene, thresholds: Thresholds) -> Result<Self, PlanError> {
         let (shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
         let mut reasons = Vec::new();
         let engine = engine(scene, &shape, &mut reasons)?;
@@ -195,13 +111,13 @@ impl Plan {
             .map(|&w| scene.medium.index(w))
             .collect::<Result<Vec<_>, _>>()?;
         if matches!(engine, Engine::Meridians | Engine::Patches) {
-            check_particle(scene, radius, &indices, &mut reasons)?;
+            check_particle(scene, radius, &indices, &thresholds, &mut reasons)?;
         }
         if indices.iter().all(|i| i.im == 0.0) {
             reasons.push("absorption is skipped: k = 0 at every wavelength".into());
         }
         let index = indices.first().map_or(1.33, |i| i.re);
-        let (orders, forward_diffraction) = orders(scene, engine, index, &mut reasons);
+        let (orders, forward_diffraction) = orders(scene, engine, index, &thresholds, &mut reasons);
         let complete = scene.orders == Orders::Auto;
         let rings = rings(scene.rays_across, scene.tolerance);
         Ok(Self {
@@ -213,6 +129,7 @@ impl Plan {
             complete,
             forward_diffraction,
             tolerance: scene.tolerance,
+            thresholds,
             checked: true,
             rings,
             spokes: 2 * rings,
@@ -242,6 +159,7 @@ impl Plan {
             complete: forward_diffraction,
             forward_diffraction,
             tolerance,
+            thresholds: Thresholds::MEASURED,
             checked: true,
             rings,
             spokes: 2 * rings,
@@ -335,18 +253,21 @@ fn check_particle(
     scene: &Scene,
     radius: f64,
     indices: &[Complex64],
+    by: &Thresholds,
     reasons: &mut Vec<String>,
 ) -> Result<(), PlanError> {
     let mut least = f64::INFINITY;
     for (&index, &wavelength) in indices.iter().zip(&scene.wavelengths) {
         let size_parameter = TAU * radius / wavelength;
-        check_rays(index, size_parameter, &format!(" at {} nm", to_digits(wavelength * 1e9, 10)))?;
+        let place = format!(" at {} nm", to_digits(wavelength * 1e9, 10));
+        acceptance::accept(by, index, size_parameter, &place)?;
         least = least.min(phase_shift(index, size_parameter));
     }
-    if least < DOUBTFUL_PHASE_SHIFT {
+    if least < by.doubtful_phase_shift {
         reasons.push(format!(
-            "rays are doubtful: the phase shift 2x|n - 1| is {least:.1}, below {DOUBTFUL_PHASE_SHIFT}; \
-             see the error that the table states"
+            "rays are doubtful: the phase shift 2x|n - 1| is {least:.1}, below {}; see the error that \
+             the table states",
+            by.doubtful_phase_shift
         ));
     }
     Ok(())
@@ -360,58 +281,21 @@ fn orders(
     scene: &Scene,
     engine: Engine,
     index: f64,
+    by: &Thresholds,
     reasons: &mut Vec<String>,
 ) -> (Vec<u32>, bool) {
     match &scene.orders {
         Orders::List(list) => (list.clone(), engine != Engine::Debye),
         Orders::Auto => {
-            let last = last_order(index, scene.tolerance);
+            let last = orders::last_order_by(by, index, scene.tolerance);
             reasons.push(format!(
                 "orders beyond p = {last} are skipped: together they hold less than {:.1e} of the \
                  light",
-                remainder_limit(scene.tolerance)
+                orders::remainder_limit(scene.tolerance, by)
             ));
             ((0..=last).collect(), true)
         }
     }
-}
-
-/// Share of the light that orders left out may hold at a tolerance.
-///
-/// Alexander's band holds about 1 % of the light per steradian that the bow beside it does, so that
-/// orders must be kept down to far less than the tolerance itself; measured against exact sums of
-/// Debye terms (1.1 % error up to p = 7 at 120–150° for a tolerance of 1 %).
-fn remainder_limit(tolerance: f64) -> f64 {
-    0.035 * tolerance
-}
-
-/// The last order that matters for a sphere of this index.
-pub fn last_order(index: f64, tolerance: f64) -> u32 {
-    let left = left_inside(index, HIGHEST_ORDER);
-    let limit = remainder_limit(tolerance);
-    left.iter().position(|&rest| rest < limit).map_or(HIGHEST_ORDER, |p| p as u32).max(3)
-}
-
-/// Share of unpolarised light still inside a sphere after each order, by impact parameter.
-fn left_inside(index: f64, last: u32) -> Vec<f64> {
-    const RAYS: usize = 400;
-    let mut left = vec![0.0; last as usize + 1];
-    for i in 0..RAYS {
-        let impact_squared = (i as f64 + 0.5) / RAYS as f64;
-        if impact_squared >= index * index {
-            continue; // totally reflected outside: nothing enters
-        }
-        let f = fresnel((1.0 - impact_squared).sqrt(), index.into());
-        for (r, t) in [(f.r_perpendicular, f.t_perpendicular), (f.r_parallel, f.t_parallel)] {
-            let (reflected, mut inside) = (r.norm_sqr(), t.norm_sqr());
-            for share in &mut left {
-                *share += 0.5 * inside / RAYS as f64;
-                inside *= reflected;
-            }
-        }
-    }
-    // after order p the wave has been reflected p times inside; index 0: all that entered
-    left
 }
 
 /// Rings of the patch grid: half the rays across where they are given, else by the tolerance, for

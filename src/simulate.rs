@@ -30,6 +30,7 @@
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{
@@ -66,6 +67,22 @@ pub enum SimulateError {
     Energy { wavelength_nm: f64, residual: f64 },
     #[error("the table would be wrong: {0}")]
     Wrong(#[from] InvalidTable),
+    #[error("the amplitudes would be wrong: {0}")]
+    Amplitudes(InvalidTable),
+}
+
+impl Blame for SimulateError {
+    fn fault(&self) -> Fault {
+        match self {
+            SimulateError::Plan(error) => error.fault(),
+            SimulateError::Medium(error) => error.fault(),
+            SimulateError::Series(error) => error.fault(),
+            SimulateError::Mean(error) => error.fault(),
+            SimulateError::Energy { .. }
+            | SimulateError::Wrong(_)
+            | SimulateError::Amplitudes(_) => Fault::Run,
+        }
+    }
 }
 
 /// Rays per side of the grid on which the energy budget is added up.
@@ -90,8 +107,7 @@ pub fn simulate<E: From<SimulateError>>(
         let header = &header;
         scope.spawn(move || {
             for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-                let slab = slab(scene, &plan, wavelength)
-                    .and_then(|slab| Ok(slab.validate(header, 0.0).map(|()| slab)?));
+                let slab = checked_slab(scene, &plan, header, wavelength);
                 let failed = slab.is_err();
                 if sender.send((i, slab)).is_err() || failed {
                     return;
@@ -116,14 +132,31 @@ pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
     Ok(PhaseTable { header, slabs })
 }
 
-/// One wavelength of a table.
+/// One wavelength of a table, checked as [`simulate`] does.
 ///
 /// # Errors
-/// A wavelength outside the medium's data, or an energy budget that does not add up.
+/// A wavelength outside the medium's data, an energy budget that does not add up, or a slab that
+/// [`Slab::validate`] refuses.
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
+    checked_slab(scene, plan, &header_of(scene, plan, String::new()), wavelength)
+}
+
+fn checked_slab(
+    scene: &Scene,
+    plan: &Plan,
+    header: &TableHeader,
+    wavelength: f64,
+) -> Result<Slab, SimulateError> {
+    let slab = computed_slab(scene, plan, wavelength)?;
+    slab.validate(header, 0.0)?;
+    Ok(slab)
+}
+
+fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        return Ok(series_slab(scene, plan, wavelength)?);
+        let slab = series_slab(scene, plan, wavelength)?;
+        return Ok(Slab { methods: plan.series_parts(), ..slab });
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
@@ -138,6 +171,10 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
             .then(|| gaussian_filter::standard_deviation(plan.radius)),
     };
     let left_out = left_out(plan, &budget) * far_field.silhouette().area() / sections.scattering();
+    let methods = far_field.assignment().cloned();
+    let methods =
+        methods.or_else(|| plan.assignment(&plan.tracer(index, size_parameter), size_parameter));
+    let methods = methods.map_or_else(Vec::new, |all| all.parts(&budget.left_by_order));
     let tabulator = Tabulator {
         theta: &scene.theta,
         size_parameter,
@@ -155,7 +192,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
         let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-        let tracer = tracer(plan, index, size_parameter);
+        let tracer = plan.tracer(index, size_parameter);
         far_field.error_estimate(&tracer, &squares, treatment.interference)
     } else {
         ErrorEstimate::UNKNOWN
@@ -171,7 +208,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         extinction_cross_section: sections.extinction * plan.radius * plan.radius,
         absorption_cross_section: sections.absorption * plan.radius * plan.radius,
         // Patches have no sound wave straight ahead.
-        forward_extinction: (in_table && far_field.straight_forward().is_some())
+        forward_extinction: (plan.forward_diffraction && far_field.straight_forward().is_some())
             .then(|| straight_ahead(&far_field, computed[0]) * plan.radius * plan.radius),
         asymmetry,
         energy: Some(budget),
@@ -181,6 +218,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         error_by_band: error_estimate.by_band,
         error_by_direction: error_estimate.by_direction,
         left_out,
+        methods,
         tolerance_met,
     })
 }
@@ -234,6 +272,7 @@ fn sphere_check(
             Engine::Patches => CheckedMethod::Patches { rings: plan.rings, interference, filter },
             _ => CheckedMethod::Meridians { deformed: !plan.shape.rotational_symmetry() },
         },
+        thresholds: plan.thresholds,
     }
 }
 
@@ -250,7 +289,7 @@ pub fn worth_of_rays(
     let treatment = Treatment { interference: true, filter: None };
     let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
     let far_field = far_field(plan, index, size_parameter, &[0.0], plan.forward_diffraction);
-    Ok(far_field.error_estimate(&tracer(plan, index, size_parameter), &squares, true))
+    Ok(far_field.error_estimate(&plan.tracer(index, size_parameter), &squares, true))
 }
 
 /// Cross sections in units of the squared radius.
@@ -283,9 +322,23 @@ impl CrossSections {
     pub fn scattering(&self) -> f64 {
         self.extinction - self.absorption
     }
+
+    /// Numbers, with something scattered and no more absorbed than is taken from the light.
+    fn validate(&self) -> Result<(), SimulateError> {
+        let slack = 1e-6 * self.extinction.abs();
+        let absorbed = (-slack..=self.extinction).contains(&self.absorption);
+        if self.extinction.is_finite() && self.scattering() > 0.0 && absorbed {
+            return Ok(());
+        }
+        let accepted = "0 or more of it absorbed, and more than 0 scattered".to_string();
+        let value = format!("{:e}, absorption {:e}", self.extinction, self.absorption);
+        let field = "extinction in units of the squared radius".into();
+        Err(SimulateError::Amplitudes(InvalidTable { field, value, accepted }))
+    }
 }
 
-/// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre.
+/// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre; as
+/// computed: [`finite`] checks them.
 pub fn scatter(
     plan: &Plan,
     index: Complex64,
@@ -298,6 +351,9 @@ pub fn scatter(
 /// The same with cross sections, for the share of light on the shadow that rays lose inside.
 ///
 /// With a `filter` (radians) amplitudes of patches have the intensities that it leaves near bows.
+///
+/// # Errors
+/// Amplitudes that are no numbers, cross-sections that are none or out of balance.
 pub fn scatter_with_sections(
     plan: &Plan,
     index: Complex64,
@@ -305,12 +361,37 @@ pub fn scatter_with_sections(
     directions: &[(f64, f64)],
     absorbed: f64,
     filter: Option<f64>,
-) -> (Vec<AmplitudeMatrix>, CrossSections) {
+) -> Result<(Vec<AmplitudeMatrix>, CrossSections), SimulateError> {
     let (mut amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
     if let Some(sigma) = filter {
         amplitudes = far_field.scatter_filtered(directions, plan.forward_diffraction, sigma);
     }
-    (amplitudes, CrossSections::new(plan, &far_field, index, absorbed))
+    let sections = CrossSections::new(plan, &far_field, index, absorbed);
+    sections.validate()?;
+    Ok((finite(amplitudes, directions)?, sections))
+}
+
+/// Amplitudes as they are, where all of them are numbers.
+///
+/// # Errors
+/// The first direction whose amplitude is none.
+pub fn finite(
+    amplitudes: Vec<AmplitudeMatrix>,
+    directions: &[(f64, f64)],
+) -> Result<Vec<AmplitudeMatrix>, SimulateError> {
+    let Some(bad) = amplitudes.iter().position(|amplitude| !amplitude.s11().is_finite()) else {
+        return Ok(amplitudes);
+    };
+    let (theta, phi) = directions.get(bad).copied().unwrap_or((f64::NAN, f64::NAN));
+    Err(SimulateError::Amplitudes(InvalidTable {
+        field: "amplitude".into(),
+        value: format!("{:?}", amplitudes[bad]),
+        accepted: format!(
+            "finite at theta {:.4}°, azimuth {:.4}°",
+            theta.to_degrees(),
+            phi.to_degrees()
+        ),
+    }))
 }
 
 fn scatter_far_field<'a>(
@@ -329,9 +410,12 @@ fn scatter_far_field<'a>(
 /// # Errors
 /// The plan's.
 pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, SimulateError> {
-    let plan = Plan::new(scene)?;
+    Ok(header_of(scene, &Plan::new(scene)?, command_line))
+}
+
+fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> TableHeader {
     let rotational = plan.symmetry == Symmetry::Rotational;
-    Ok(TableHeader {
+    TableHeader {
         axes: Axes {
             wavelength: scene.wavelengths.clone(),
             theta: scene.theta.clone(),
@@ -355,12 +439,12 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
         .into(),
         radius: plan.radius,
         sun_elevation: scene.sun_elevation,
-        bodies: Some(bodies(scene, &plan)),
-        averaging: averaging(scene, &plan),
+        bodies: Some(bodies(scene, plan)),
+        averaging: averaging(scene, plan),
         tolerance: scene.tolerance,
         scene_toml: scene.toml.clone(),
         command_line,
-    })
+    }
 }
 
 /// The particles of a scene as bodies.
@@ -411,8 +495,7 @@ fn energy(
     let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { ENERGY_GRID };
     let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, ENERGY_GRID, spokes));
-    // An absorbing interface mixes incident and reflected power: a term of the order of k per hit.
-    if fates.residual.abs() > ENERGY_TOLERANCE + f64::from(last + 1) * index.im {
+    if !adds_up(fates.residual, index, last) {
         let wavelength_nm = wavelength * 1e9;
         return Err(SimulateError::Energy { wavelength_nm, residual: fates.residual });
     }
@@ -425,6 +508,12 @@ fn energy(
     })
 }
 
+/// Whether the light unaccounted for is rounding, for rays up to an order. An absorbing interface mixes
+/// incident and reflected power: a term of the order of k per hit.
+pub fn adds_up(residual: f64, index: Complex64, last_order: u32) -> bool {
+    residual.abs() <= ENERGY_TOLERANCE + f64::from(last_order + 1) * index.im
+}
+
 /// Trace, and make the far field ready for columns and directions, with forward diffraction joined
 /// to order 0 where asked.
 fn far_field<'a>(
@@ -434,8 +523,10 @@ fn far_field<'a>(
     azimuths: &[f64],
     diffraction: bool,
 ) -> FarField<'a> {
-    let tracer = tracer(plan, index, size_parameter);
-    if plan.engine == Engine::Meridians {
+    let tracer = plan.tracer(index, size_parameter);
+    if let Some(assignment) =
+        plan.assignment(&tracer, size_parameter).filter(|_| plan.engine == Engine::Meridians)
+    {
         let (azimuths, _) = plan.computed_azimuths(azimuths);
         let settings = FarFieldSettings {
             size_parameter,
@@ -445,7 +536,7 @@ fn far_field<'a>(
             checked: plan.checked,
             azimuths: &azimuths,
         };
-        return FarField::meridians(&tracer, &settings);
+        return FarField::assigned(&tracer, &settings, assignment);
     }
     let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
     FarField::patches(
@@ -453,16 +544,6 @@ fn far_field<'a>(
         sheets::sheets(&tracer, &wavefront, &plan.orders),
         size_parameter,
     )
-}
-
-/// What traces a plan's rays.
-fn tracer<'a>(plan: &'a Plan, index: Complex64, size_parameter: f64) -> Tracer<'a> {
-    let last = plan.orders.iter().copied().max().unwrap_or(0);
-    let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
-    if plan.engine == Engine::Meridians {
-        return tracer.with_curved_interface(size_parameter);
-    }
-    tracer
 }
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.

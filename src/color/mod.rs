@@ -46,6 +46,8 @@ pub use srgb::{
 };
 pub use sun::{LimbDarkening, SUN_ANGULAR_RADIUS, SunDisc};
 
+use crate::fault::{Blame, Fault};
+
 /// What is wrong with a request for a colour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what each case and field is")]
@@ -70,4 +72,10 @@ pub enum ColorError {
     Gap { from_nm: f64, to_nm: f64, largest_nm: f64 },
     #[error("{wavelengths} wavelengths but {values} values: the numbers must agree")]
     Length { wavelengths: usize, values: usize },
+}
+
+impl Blame for ColorError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }

@@ -34,23 +34,23 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod atmosphere;
 pub mod average;
 mod colours;
 pub mod csv;
-mod database;
-pub mod eradiate;
 pub mod exr;
-mod legendre;
-pub mod libradtran;
 pub mod mitsuba;
 pub mod notes;
-pub mod sasktran2;
-pub mod size_grid;
+pub mod source;
 #[cfg(feature = "pictures")]
 pub mod strip;
 
+pub use atmosphere::{eradiate, libradtran, sasktran2, size_grid};
+
 use crate::color::ColorError;
+use crate::fault::{Blame, Fault};
 use crate::hdf5::TableError;
+use std::path::PathBuf;
 
 /// What went wrong with an export.
 #[derive(Debug, thiserror::Error)]
@@ -58,6 +58,8 @@ use crate::hdf5::TableError;
 pub enum ExportError {
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
+    #[error("{}: a sweep; {why}", path.display())]
+    Sweep { path: PathBuf, why: String },
     #[error("colours: {0}")]
     Color(#[from] ColorError),
     #[cfg(feature = "pictures")]
@@ -67,14 +69,15 @@ pub enum ExportError {
     Table(#[from] TableError),
 }
 
-impl ExportError {
-    /// True where the caller's input is wrong.
-    pub fn is_wrong_input(&self) -> bool {
+impl Blame for ExportError {
+    fn fault(&self) -> Fault {
         match self {
-            ExportError::Invalid { .. } | ExportError::Color(_) => true,
-            ExportError::Table(error) => error.is_wrong_input(),
+            ExportError::Invalid { .. } | ExportError::Sweep { .. } | ExportError::Color(_) => {
+                Fault::Input
+            }
+            ExportError::Table(error) => error.fault(),
             #[cfg(feature = "pictures")]
-            ExportError::Png(_) => false,
+            ExportError::Png(_) => Fault::Run,
         }
     }
 }

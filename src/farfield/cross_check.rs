@@ -2,68 +2,84 @@
 //!
 //! On strongly flattened particles rays may gather where no plane tells (a fold across its plane, a
 //! branch that its scan does not reach). Beams see every ray, but are a few percent coarser. So for
-//! such particles both are computed at some directions, and an order that differs grossly is left to
-//! the beams.
+//! such particles both are computed at some directions. What comes of it is a value, the largest share of
+//! the amplitude by which they differ; [`super::assignment`] says for which orders, and what follows.
 
+use crate::farfield::assignment::{Difference, Thresholds};
 use crate::farfield::azimuth::plane_set::PlaneSet;
-use crate::farfield::fallback::with_beams;
 use crate::farfield::gaussian_beams::GaussianBeams;
-use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
 
-/// Orders worth a check: higher ones are weak. Order 0 has its own wave at the edge.
-const ORDERS: std::ops::RangeInclusive<u32> = 1..=3;
-/// Order times deformation, and size parameter, from which on it is made: the one for a reason, the
-/// other so that beams are fine enough to tell.
-const DEFORMED: f64 = 0.06;
-const LEAST_SIZE: f64 = 6000.0;
 /// Azimuths, scattering angles in each and in each band.
 const AZIMUTHS: usize = 9;
 const SAMPLES: usize = 640;
 const BAND: usize = 16;
-/// Share of the amplitude in a band that may differ, and the least share of the order's mean power that
-/// a band must hold to count.
-const GROSS: f64 = 0.6;
-const FAINT: f64 = 0.05;
 
-/// Regular orders whose waves differ from those of beams by more than beams may err.
-pub(crate) fn doubtful_orders(
+/// How far the waves of some orders are from those of beams; no more is looked at once they are gross.
+pub(crate) fn differences(
     planes: &PlaneSet,
     tracer: &Tracer,
-    settings: &FarFieldSettings,
-) -> Vec<u32> {
-    let x = settings.size_parameter;
-    if !settings.checked || x < LEAST_SIZE || !with_beams(settings) {
-        return Vec::new();
-    }
+    orders: &[u32],
+    size_parameter: f64,
+    by: &Thresholds,
+) -> Vec<Difference> {
     let theta: Vec<f64> =
         (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
-    let doubtful = |order: &u32| {
-        let azimuths = planes.some_azimuths(*order, AZIMUTHS);
-        let beams = GaussianBeams::new(tracer, &[*order], &azimuths, x);
-        azimuths.into_iter().any(|phi| {
+    let difference = |&order: &u32| {
+        let azimuths = planes.some_azimuths(order, AZIMUTHS);
+        let beams = GaussianBeams::new(tracer, &[order], &azimuths, size_parameter);
+        let mut share = 0.0f64;
+        for phi in azimuths {
             let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
             beams.add(&theta, phi, &mut waves);
-            differs(&planes.columns_of(*order, &theta, phi), &waves)
-        })
+            let found = planes.columns_of(order, &theta, phi);
+            share = share.max(largest_share(&found, &waves, by.faint_band));
+            if share > by.gross_difference {
+                break;
+            }
+        }
+        Difference { order, share }
     };
-    planes
-        .regular_orders(DEFORMED, tracer)
-        .into_iter()
-        .filter(|order| ORDERS.contains(order))
-        .filter(doubtful)
-        .collect()
+    orders.iter().map(difference).collect()
 }
 
-/// Whether two columns differ grossly in a band that is not faint.
-fn differs(found: &[AmplitudeMatrix], beams: &[AmplitudeMatrix]) -> bool {
+/// Largest share of the amplitude by which two columns differ in a band that is not faint.
+fn largest_share(found: &[AmplitudeMatrix], beams: &[AmplitudeMatrix], faint: f64) -> f64 {
     let power = |column: &[AmplitudeMatrix]| column.iter().map(AmplitudeMatrix::s11).sum::<f64>();
-    let faint = FAINT * power(beams) * BAND as f64 / beams.len() as f64;
-    found.chunks(BAND).zip(beams.chunks(BAND)).any(|(found, beams)| {
+    let faint = faint * power(beams) * BAND as f64 / beams.len() as f64;
+    let share = |(found, beams): (&[AmplitudeMatrix], &[AmplitudeMatrix])| {
         let off: f64 = found.iter().zip(beams).map(|(f, b)| (*f - *b).s11()).sum();
-        off > GROSS * GROSS * power(beams).max(power(found))
-            && power(beams).max(power(found)) > faint
-    })
+        let most = power(beams).max(power(found));
+        if most > faint { (off / most).sqrt() } else { 0.0 }
+    };
+    found.chunks(BAND).zip(beams.chunks(BAND)).map(share).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(size: impl Fn(usize) -> f64) -> Vec<AmplitudeMatrix> {
+        (0..SAMPLES)
+            .map(|k| AmplitudeMatrix {
+                s1: size(k).into(),
+                s2: size(k).into(),
+                ..Default::default()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_worst_band_counts_unless_it_is_faint() {
+        let beams = column(|_| 1.0);
+        let off = |by: f64| column(|k| if k < BAND { 1.0 - by } else { 1.0 });
+        assert_eq!(largest_share(&beams, &beams, 0.05), 0.0);
+        assert!((largest_share(&off(0.4), &beams, 0.05) - 0.4).abs() < 1e-12);
+        let faint = column(|k| if k < BAND { 0.1 } else { 1.0 });
+        let without = column(|k| if k < BAND { 0.0 } else { 1.0 });
+        assert_eq!(largest_share(&without, &faint, 0.05), 0.0);
+        assert_eq!(largest_share(&without, &faint, 0.005), 1.0);
+    }
 }

@@ -1,10 +1,7 @@
-//! Orders that planes do not serve: sums of partial waves where the particle is small; else, where
-//! planes do not correspond, sums of beams, whose error falls like `1/√x`, or patches for
-//! particles so small, or tolerances so coarse, that those do better.
-//!
-//! Order 0 stays with patches: its rays are strongest where launch points end, at the rim, which beams
-//! would show as an edge that shines.
+//! Orders that planes do not serve, each by the method that it is assigned to: sums of partial waves, of
+//! beams, or patches.
 
+use crate::farfield::assignment::{self, Assignment};
 use crate::farfield::direction::Direction;
 use crate::farfield::gaussian_beams::GaussianBeams;
 use crate::farfield::partial_waves::PartialWaves;
@@ -15,7 +12,7 @@ use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::{Tracer, Wavefront};
 
-/// The waves of tangled orders.
+/// The waves of orders without planes.
 pub(crate) struct FallbackField(Vec<Part>);
 
 /// Orders that one method serves.
@@ -31,48 +28,36 @@ enum Method {
     Patches(CollectingSphere, Interference),
 }
 
-/// Size parameter from which on tangled orders are sums of beams, and the tolerance up to which they are
-/// worth their time: ten times that of patches where few directions are asked for.
-const FIRST_OF_BEAMS: f64 = 1000.0;
-const COARSEST_OF_BEAMS: f64 = 0.03;
 /// `dA/dΩ` of the wave at a fold, in units of `x^{1/3}`: patches may not exceed it.
 const FOLD_JACOBIAN: f64 = 0.5;
-/// Rings of the patch grid for tangled orders at a tolerance of 1 %.
+/// Rings of the patch grid for orders without planes at a tolerance of 1 %.
 const PATCH_RINGS: f64 = 90.0;
-/// Doubt of patches, without and with bows; of beams, as many times as the number of the lowest order.
-const OF_REFLECTION: f64 = 0.07;
-const OF_PATCHES: f64 = 0.3;
-const OF_BEAMS: f64 = 0.02;
-
-/// Whether beams serve.
-pub(crate) fn with_beams(settings: &FarFieldSettings) -> bool {
-    settings.size_parameter >= FIRST_OF_BEAMS && settings.tolerance <= COARSEST_OF_BEAMS
-}
 
 impl FallbackField {
-    /// For some orders, ascending.
+    /// What an assignment leaves beside scattering planes; `waves` are its partial waves.
     pub(crate) fn new(
         tracer: &Tracer,
         waves: Option<PartialWaves>,
-        orders: &[u32],
+        assignment: &Assignment,
         settings: &FarFieldSettings,
     ) -> Self {
-        let (reflected, transmitted) = orders.split_at(orders.partition_point(|&order| order == 0));
+        let by_patches = assignment.orders_of(assignment::Method::Patches);
+        let (reflected, transmitted): (Vec<u32>, Vec<u32>) =
+            by_patches.into_iter().partition(|&order| order == 0);
+        let by_beams = assignment.orders_of(assignment::Method::Beams);
         // theirs is measured on the sphere of equal volume
         let of_waves = |waves| Part { method: Method::PartialWaves(waves), doubt: 0.0 };
         let mut parts: Vec<Part> = waves.map(of_waves).into_iter().collect();
-        if !reflected.is_empty() {
-            let method = patches(tracer, reflected, settings);
-            parts.push(Part { method, doubt: OF_REFLECTION });
+        for orders in [reflected, transmitted] {
+            if let Some(&lowest) = orders.iter().min() {
+                let method = patches(tracer, &orders, settings);
+                parts.push(Part { method, doubt: assignment.error_of(lowest) });
+            }
         }
-        if let Some(&lowest) = transmitted.first() {
-            parts.push(if with_beams(settings) {
-                let (azimuths, x) = (settings.azimuths, settings.size_parameter);
-                let beams = GaussianBeams::new(tracer, transmitted, azimuths, x);
-                Part { method: Method::Beams(beams), doubt: OF_BEAMS * f64::from(lowest) }
-            } else {
-                Part { method: patches(tracer, transmitted, settings), doubt: OF_PATCHES }
-            });
+        if let Some(&lowest) = by_beams.iter().min() {
+            let (azimuths, x) = (settings.azimuths, settings.size_parameter);
+            let beams = GaussianBeams::new(tracer, &by_beams, azimuths, x);
+            parts.push(Part { method: Method::Beams(beams), doubt: assignment.error_of(lowest) });
         }
         Self(parts)
     }

@@ -1,5 +1,6 @@
 //! The far field of one wavelength, asked for columns of a table or for single directions.
 
+use super::assignment::{Assignment, Method, Outcome, Thresholds};
 use super::azimuth::plane_set::PlaneSet;
 use super::column::Column;
 use super::cross_check;
@@ -21,6 +22,7 @@ use std::f64::consts::{PI, TAU};
 /// The far field of one wavelength, ready to be asked for columns or single directions.
 pub struct FarField<'a> {
     pub(crate) source: Source,
+    assignment: Option<Assignment>,
     silhouette: ForwardDiffraction,
     pub(crate) size_parameter: f64,
     _shape: &'a Shape,
@@ -41,45 +43,66 @@ impl<'a> FarField<'a> {
         let interference = Interference { size_parameter, interpolation, largest_jacobian };
         Self {
             source: Source::Patches(CollectingSphere::new(sheets), interference),
+            assignment: None,
             silhouette: ForwardDiffraction::new(shape),
             size_parameter,
             _shape: shape,
         }
     }
 
-    /// Scattering planes with uniform Airy functions at their folds.
+    /// Every order by the method that the measured thresholds say.
     pub fn meridians(tracer: &Tracer<'a>, settings: &FarFieldSettings) -> Self {
-        Self::with_waves(tracer, settings, !tracer.shape().rotational_symmetry())
+        let (x, tolerance) = (settings.size_parameter, settings.tolerance);
+        let by = &Thresholds::MEASURED;
+        let assignment = Assignment::new(tracer, settings.orders, x, tolerance, by);
+        Self::assigned(tracer, settings, assignment)
     }
 
-    /// The same; `deformed` says whether small particles have partial waves.
-    pub(super) fn with_waves(
+    /// Every order by the method that it is assigned to or, where that fails on trial, by the next.
+    pub fn assigned(
         tracer: &Tracer<'a>,
         settings: &FarFieldSettings,
-        deformed: bool,
+        assignment: Assignment,
     ) -> Self {
+        let (x, by) = (settings.size_parameter, *assignment.thresholds());
         let silhouette = ForwardDiffraction::new(tracer.shape());
-        let (waves, orders) = PartialWaves::of_small_particles(tracer, settings, deformed);
-        let settings = FarFieldSettings { orders: &orders, ..settings.clone() };
-        let mut planes = PlaneSet::new(tracer, &settings, &silhouette);
-        for order in cross_check::doubtful_orders(&planes, tracer, &settings) {
-            planes.give_up(order);
-        }
-        let fallback = FallbackField::new(tracer, waves, &planes.irregular, &settings);
+
+        let small = assignment.orders_of(Method::PartialWaves);
+        let waves = (!small.is_empty()).then(|| PartialWaves::new(tracer, &small, x, &by));
+        let (waves, lost) = waves.map_or((None, Vec::new()), |(waves, lost)| (Some(waves), lost));
+        let assignment = assignment.after(Outcome::RadialLines(&lost));
+
+        let orders = assignment.orders_of(Method::Planes);
+        let of_planes = FarFieldSettings { orders: &orders, ..settings.clone() };
+        let planes = PlaneSet::new(tracer, &of_planes, &silhouette, &by);
+        let assignment = assignment.after(Outcome::Planes(&planes.outcomes()));
+
+        let doubted = if settings.checked { assignment.cross_checked() } else { Vec::new() };
+        let differences = cross_check::differences(&planes, tracer, &doubted, x, &by);
+        let assignment = assignment.after(Outcome::CrossCheck(&differences));
+
+        let planes = planes.only(&assignment.orders_of(Method::Planes));
+        let fallback = FallbackField::new(tracer, waves, &assignment, settings);
         Self {
             source: Source::Planes(Box::new(planes), fallback),
+            assignment: Some(assignment),
             silhouette,
-            size_parameter: settings.size_parameter,
+            size_parameter: x,
             _shape: tracer.shape(),
         }
     }
 
-    /// Orders that the method could not represent.
-    pub fn irregular(&self) -> &[u32] {
-        match &self.source {
-            Source::Patches(..) => &[],
-            Source::Planes(planes, _) => &planes.irregular,
-        }
+    /// Which method stands for which order, as it turned out. `None` for patches alone.
+    pub fn assignment(&self) -> Option<&Assignment> {
+        self.assignment.as_ref()
+    }
+
+    /// Orders that neither planes nor partial waves could represent.
+    pub fn irregular(&self) -> Vec<u32> {
+        let of = |method| self.assignment.iter().flat_map(move |all| all.orders_of(method));
+        let mut orders: Vec<u32> = of(Method::Beams).chain(of(Method::Patches)).collect();
+        orders.sort_unstable();
+        orders
     }
 
     /// The wave that goes straight on.

@@ -1,5 +1,6 @@
 //! The far field: from rays that left the particle to amplitudes in any direction.
 //!
+//! Which method serves which order is decided in [`assignment`] and nowhere else.
 //! Two ways lead there. The main one follows, for each order, the rays that leave in one scattering plane
 //! ([`deflection`]), cuts them at their landmarks into the segments of a [`branch`] with uniform formulas
 //! at folds, near the rim ([`impact_integral`]) and at the edge of the shadow ([`forward`]), interpolates
@@ -29,6 +30,7 @@
 //! assert!(at(138.8) > 100.0 * at(136.0), "the primary bow and the dark band beside it");
 //! ```
 
+pub mod assignment;
 pub mod azimuth;
 pub mod branch;
 mod column;

@@ -8,6 +8,7 @@
 //! the series a smaller one with the same absorption along its diameter speaks for it: no error of the
 //! method grows with the size. With a list of orders the truth are their Debye terms, else Lorenz–Mie.
 
+use super::assignment::{Assignment, Thresholds};
 use super::far_field::FarField;
 use super::patches::sheets;
 use super::settings::FarFieldSettings;
@@ -20,8 +21,6 @@ use crate::trace::{Tracer, Wavefront};
 use num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Size parameter of the largest sphere whose series is summed.
-const LARGEST: f64 = 20_000.0;
 /// Scattering angles looked at in each band: many fringes, of which the mean square counts.
 pub(super) const SAMPLES: usize = 40;
 /// Half the width of a band, radians.
@@ -46,6 +45,8 @@ pub struct SphereCheck<'a> {
     pub tolerance: f64,
     /// What is judged.
     pub method: CheckedMethod,
+    /// By which methods are chosen, and how large the sphere may be.
+    pub thresholds: Thresholds,
 }
 
 /// How amplitudes are found, and what is made of them.
@@ -107,7 +108,7 @@ impl SphereCheck<'_> {
 
     /// Size parameter and index of the sphere that is computed.
     fn sphere(&self) -> (f64, Complex64) {
-        let x = self.size_parameter.min(LARGEST);
+        let x = self.size_parameter.min(self.thresholds.largest_checked_sphere);
         (x, Complex64::new(self.index.re, self.index.im * self.size_parameter / x))
     }
 
@@ -140,7 +141,9 @@ impl SphereCheck<'_> {
                     checked: false,
                     azimuths: &[0.0],
                 };
-                let far_field = FarField::with_waves(&tracer, &settings, deformed);
+                let (numbers, by) = ([x, self.tolerance], &self.thresholds);
+                let assignment = Assignment::as_if(deformed, &tracer, self.orders, numbers, by);
+                let far_field = FarField::assigned(&tracer, &settings, assignment);
                 let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, 0.0)).collect();
                 let amplitudes = far_field.scatter(&directions, self.diffraction);
                 amplitudes.iter().map(|s| s.s11()).collect()

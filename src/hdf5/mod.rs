@@ -32,6 +32,7 @@ mod circumstances;
 mod diagram;
 mod heap;
 mod literal;
+mod methods;
 mod netcdf;
 mod output;
 mod raw_attribute;
@@ -54,6 +55,7 @@ pub use space::{available_bytes, estimate_bytes};
 pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter, position_of};
 pub use writer::{TableWriter, write};
 
+use crate::fault::{Blame, Fault};
 use crate::phase_table::InvalidTable;
 use std::path::{Path, PathBuf};
 
@@ -70,6 +72,9 @@ pub enum TableError {
     Io { path: PathBuf, source: std::io::Error },
     #[error("{}: cannot be written: {message}", path.display())]
     Write { path: PathBuf, message: String },
+    /// The same, where the disk has no room or the quota none left.
+    #[error("{}: cannot be written: {message}", path.display())]
+    DiskFull { path: PathBuf, message: String },
     #[error("{}: not a phase table: {message}", path.display())]
     Foreign { path: PathBuf, message: String },
     #[error("{}: damaged: {message}", path.display())]
@@ -80,16 +85,19 @@ pub enum TableError {
     Table(#[from] InvalidTable),
 }
 
-impl TableError {
-    /// True where the caller's input is wrong, rather than the disk or the computation.
-    pub fn is_wrong_input(&self) -> bool {
-        matches!(
-            self,
+impl Blame for TableError {
+    fn fault(&self) -> Fault {
+        match self {
             TableError::Exists { .. }
-                | TableError::NoSpace { .. }
-                | TableError::Foreign { .. }
-                | TableError::Invalid { .. }
-        )
+            | TableError::NoSpace { .. }
+            | TableError::Foreign { .. }
+            | TableError::Invalid { .. } => Fault::Input,
+            TableError::Io { .. }
+            | TableError::Write { .. }
+            | TableError::DiskFull { .. }
+            | TableError::Damaged { .. }
+            | TableError::Table(_) => Fault::Run,
+        }
     }
 }
 

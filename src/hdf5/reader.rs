@@ -1,6 +1,7 @@
 //! Reading a table, whole or wavelength by wavelength.
 
 use super::circumstances::read_numbers;
+use super::methods::read_methods;
 use super::raw_read::{OpenDataset, OpenFile};
 use super::record::{BY_DIRECTION, ENERGY, LATER, LEFT_OUT, PLAIN, Record};
 use super::schema::{
@@ -8,8 +9,8 @@ use super::schema::{
 };
 use super::{TableError, damaged, foreign, invalid};
 use crate::phase_table::{
-    Averaging, Axes, ERROR_BANDS, EnergyBudget, ForwardPeak, PhaseTable, Quantity, Slab,
-    TableHeader,
+    Averaging, Axes, ERROR_BANDS, EnergyBudget, ForwardPeak, MethodRange, PhaseTable, Quantity,
+    Slab, TableHeader,
 };
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -147,6 +148,7 @@ pub(super) fn slab_at(
         error_by_band: record.error_by_band,
         error_by_direction: record.error_by_direction,
         left_out: record.left_out,
+        methods: record.methods.clone(),
     })
 }
 
@@ -319,6 +321,7 @@ pub(super) fn read_records(
         Some(_) => read_field(file, LEFT_OUT, leading, wavelengths, None)?,
         None => vec![0.0; wavelengths],
     };
+    let methods = read_methods(file, leading)?;
     let record = |(i, energy)| Record {
         index: Complex64::new(real[i], imag[i]),
         scattering_cross_section: scattering[i],
@@ -334,6 +337,7 @@ pub(super) fn read_records(
         error_by_direction: std::array::from_fn(|k| by_direction[i * ERROR_BANDS + k]),
         left_out: left_out[i],
         energy,
+        methods: MethodRange::at(&methods, i),
     };
     let budgets = read_budgets(file, leading, wavelengths)?;
     Ok(budgets.into_iter().enumerate().map(record).collect())

@@ -7,7 +7,7 @@ use super::TableError;
 use super::raw_write::{Kind, NewDataset, NewFile};
 use super::schema::scale;
 use crate::math::digits::degree;
-use crate::phase_table::{ERROR_BANDS, EnergyBudget, Slab, error_theta};
+use crate::phase_table::{ERROR_BANDS, EnergyBudget, MethodPart, Slab, error_theta};
 use num_complex::Complex64;
 
 /// The numbers of one slab.
@@ -28,6 +28,7 @@ pub(super) struct Record {
     pub error_by_direction: [f64; ERROR_BANDS],
     pub left_out: f64,
     pub energy: Option<EnergyBudget>,
+    pub methods: Vec<MethodPart>,
 }
 
 impl From<&Slab> for Record {
@@ -47,6 +48,7 @@ impl From<&Slab> for Record {
             error_by_direction: slab.error_by_direction,
             left_out: slab.left_out,
             energy: slab.energy.clone(),
+            methods: slab.methods.clone(),
         }
     }
 }

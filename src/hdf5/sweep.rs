@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::circumstances::{read_numbers, write_numbers, write_scalars};
+use super::methods::write_swept_methods;
 use super::output::{Output, WriteOptions};
 use super::raw_read::OpenFile;
 use super::raw_write::{Kind, NewDataset, NewFile};
@@ -185,6 +186,7 @@ impl SweepWriter {
         let mut lengths = shape.clone();
         lengths.push(wavelengths as u64);
         write_records(&file, &records, &along, &lengths)?;
+        write_swept_methods(&file, &header.axes.wavelength, &records, &leading, &shape)?;
         file.attribute_integer("complete", 1)?;
         drop(data);
         drop((body, dimensions, scales));

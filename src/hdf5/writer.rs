@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::circumstances::{write_numbers, write_scalars};
+use super::methods::write_methods;
 use super::output::{Output, WriteOptions};
 use super::raw_write::NewFile;
 use super::record::{Record, write_records};
@@ -70,7 +71,7 @@ impl TableWriter {
     /// # Errors
     /// When a slab is missing, the disk is full, or a file of that name has appeared meanwhile.
     pub fn finish(self) -> Result<(), TableError> {
-        let TableWriter { body, dimensions, file, output, records, .. } = self;
+        let TableWriter { body, dimensions, file, output, records, header } = self;
         if let Some(missing) = records.iter().position(Option::is_none) {
             return Err(invalid(
                 "slab",
@@ -79,6 +80,7 @@ impl TableWriter {
             ));
         }
         write_records(&file, &records, &[&dimensions.wavelength], &[records.len() as u64])?;
+        write_methods(&file, &header.axes.wavelength, &records)?;
         file.attribute_integer("complete", 1)?;
         drop((body, dimensions));
         file.close()?;

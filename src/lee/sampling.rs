@@ -18,6 +18,7 @@
 
 use super::wavelengths::{BAND, nodes};
 use crate::color::SUN_ANGULAR_RADIUS;
+use crate::math::GOLDEN;
 use crate::series::even_angles::AngleSums;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -56,8 +57,6 @@ const LONGEST_PATH: f64 = 5.5;
 const PER_BEAT: f64 = 1.5;
 /// Wavelengths that share one grid of angles and one limb darkening.
 const BANDS: usize = 8;
-/// The golden ratio's fraction.
-pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Which waves beat with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,7 +14,7 @@
 //! # Ok::<(), gonio::medium::MediumError>(())
 //! ```
 
-use super::{MediumError, check_range};
+use super::error::{MediumError, check_range};
 use num_complex::Complex64;
 use std::fmt;
 use std::sync::Arc;
@@ -23,10 +23,13 @@ type Index = dyn Fn(f64) -> Complex64 + Send + Sync;
 
 /// A medium whose index a function gives. Two are equal when they are copies of one.
 #[derive(Clone)]
-pub struct OwnMedium {
+pub struct OwnMedium(Arc<Own>);
+
+/// What a medium of one's own holds.
+struct Own {
     name: String,
     range: (f64, f64),
-    index: Arc<Index>,
+    index: Box<Index>,
 }
 
 impl OwnMedium {
@@ -37,31 +40,34 @@ impl OwnMedium {
         range: (f64, f64),
         index: impl Fn(f64) -> Complex64 + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.into(), range, index: Arc::new(index) }
+        Self(Arc::new(Own { name: name.into(), range, index: Box::new(index) }))
     }
 
     pub(super) fn index(&self, wavelength: f64) -> Result<Complex64, MediumError> {
-        check_range(&self.name, wavelength, self.range)?;
-        Ok((self.index)(wavelength))
+        check_range(&self.0.name, wavelength, self.0.range)?;
+        Ok((self.0.index)(wavelength))
     }
 
     pub(super) fn name(&self) -> &str {
-        &self.name
+        &self.0.name
     }
 
     pub(super) fn range(&self) -> (f64, f64) {
-        self.range
+        self.0.range
     }
 }
 
 impl PartialEq for OwnMedium {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name && Arc::ptr_eq(&self.index, &other.index)
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
 impl fmt::Debug for OwnMedium {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("OwnMedium").field("name", &self.name).field("range", &self.range).finish()
+        f.debug_struct("OwnMedium")
+            .field("name", &self.0.name)
+            .field("range", &self.0.range)
+            .finish()
     }
 }

@@ -35,9 +35,13 @@
 //! ```
 
 mod amplitude;
+mod descartes;
 mod fresnel;
 mod grazing;
+mod polarisation;
 
 pub use amplitude::AmplitudeMatrix;
+pub use descartes::rainbow_angle;
 pub use fresnel::{Fresnel, curved_from_inside, curved_from_outside, fresnel};
 pub use grazing::Grazing;
+pub use polarisation::Polarisation;

@@ -1,6 +1,7 @@
 //! Pictures of phase tables: a preview of the table itself, and rainbows in the sky.
 //!
-//! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s. Stages of a rainbow:
+//! Reads nothing but [`PhaseTable`](crate::phase_table::PhaseTable)s, which `bow` has computed where a scene
+//! of a picture names drops in place of tables. Stages of a rainbow:
 //! table → XYZ per direction (`tristimulus`) → mixture of drops → what each pixel of the
 //! `camera` sees of the sky, averaged over the sun's disc (`sky`) → sRGB → PNG.
 //!
@@ -12,37 +13,38 @@
 //! assert!((distance - 0.9004).abs() < 1e-4);
 //! ```
 
+#[cfg(feature = "hdf5")]
+pub mod bow;
 pub mod camera;
-#[cfg(feature = "pictures")]
-mod color_diagram;
 mod directions;
-#[cfg(feature = "pictures")]
-mod error_strip;
-#[cfg(feature = "pictures")]
-mod font;
-#[cfg(feature = "pictures")]
-mod heat_map;
 mod picture;
 #[cfg(feature = "pictures")]
-pub mod preview;
+mod plots;
+#[cfg(feature = "pictures")]
+mod ray_paths;
 pub mod sky;
 mod sun_smoothing;
-#[cfg(feature = "pictures")]
-mod ticks;
+mod thinned;
 mod tristimulus;
 
-#[cfg(feature = "pictures")]
-pub use color_diagram::ColorDiagram;
 pub use directions::DirectionGrid;
-#[cfg(feature = "pictures")]
-pub use font::{FONT, ensure_font};
-#[cfg(feature = "pictures")]
-pub use heat_map::{colour_bar, draw_pixels};
 pub use picture::{Picture, write_complete};
+#[cfg(feature = "pictures")]
+pub use plots::color_diagram::ColorDiagram;
+#[cfg(feature = "pictures")]
+pub use plots::font::{FONT, ensure_font};
+#[cfg(feature = "pictures")]
+pub use plots::heat_map::{colour_bar, draw_pixels};
+#[cfg(feature = "pictures")]
+pub use plots::preview;
+#[cfg(feature = "pictures")]
+pub use ray_paths::draw_ray_paths;
 pub use sun_smoothing::smooth_over_sun;
+pub use thinned::Thinned;
 pub use tristimulus::{Tristimulus, rotational_xyz};
 
 use crate::color::ColorError;
+use crate::fault::{Blame, Fault};
 use std::path::PathBuf;
 
 /// Why a picture cannot be made.
@@ -57,6 +59,15 @@ pub enum RenderError {
     Drawing(String),
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
+}
+
+impl Blame for RenderError {
+    fn fault(&self) -> Fault {
+        match self {
+            RenderError::Color(_) | RenderError::Invalid { .. } => Fault::Input,
+            RenderError::Write { .. } | RenderError::Drawing(_) => Fault::Run,
+        }
+    }
 }
 
 #[cfg(feature = "pictures")]

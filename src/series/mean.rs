@@ -14,6 +14,7 @@
 use super::SeriesError;
 use super::mean_nodes::{Line, ZoneError};
 use super::mean_sum::{Summed, exact, fine_and_coarse};
+use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
 use crate::size_distribution::SizeDistribution;
 use std::f64::consts::PI;
@@ -74,6 +75,17 @@ pub enum MeanError {
     },
 }
 
+impl Blame for MeanError {
+    fn fault(&self) -> Fault {
+        match self {
+            MeanError::Series(error) => error.fault(),
+            MeanError::Medium(error) => error.fault(),
+            MeanError::TooLong { .. } => Fault::Input,
+            MeanError::NotMet { .. } => Fault::Run,
+        }
+    }
+}
+
 /// Mean per particle.
 #[derive(Clone, Debug)]
 pub struct Mean {
@@ -83,10 +95,14 @@ pub struct Mean {
     pub scattering: f64,
     /// Absorption cross-section, m².
     pub absorption: f64,
+    /// Extinction by the optical theorem on the mean amplitudes straight ahead, m²: scattering and
+    /// absorption by another way.
+    pub forward_extinction: f64,
     /// Mean cosine of the scattering angle.
     pub asymmetry: f64,
     /// Relative error: the largest of that of S11, root mean square over all angles, of scattering
-    /// and of absorption, estimated from half the cut and from panels twice as wide.
+    /// and of absorption, estimated from half the cut and from panels twice as wide; and the share of the
+    /// light in the tails of the distribution, which is left out.
     pub error: f64,
     /// Spheres that were solved.
     pub spheres: usize,
@@ -213,7 +229,9 @@ impl Ensemble<'_> {
             let at_compared = total.last(COMPARED);
             let (error_small, error_large) =
                 (small.error(&at_compared), large.error(&at_compared) / GAIN);
-            let (error, spheres) = (error_small + error_large, small.spheres + large.spheres);
+            let spheres = small.spheres + large.spheres;
+            // The light of spheres in the tails is missing in all of it.
+            let error = error_small + error_large + TAIL * self.tolerance;
             if error <= self.tolerance {
                 return Ok(Mean::new(total, theta.len(), error, spheres));
             }
@@ -349,6 +367,7 @@ impl Mean {
             elements,
             scattering: total.scattering,
             absorption: total.absorption,
+            forward_extinction: total.extinction,
             asymmetry: total.forward / total.scattering,
             error,
             spheres,
@@ -359,6 +378,7 @@ impl Mean {
         self.elements.iter_mut().flatten().for_each(|value| *value *= factor);
         self.scattering *= factor;
         self.absorption *= factor;
+        self.forward_extinction *= factor;
         self.error *= factor;
         self
     }
@@ -371,6 +391,7 @@ impl Mean {
             (self.asymmetry * self.scattering + other.asymmetry * other.scattering) / scattering;
         self.scattering = scattering;
         self.absorption += other.absorption;
+        self.forward_extinction += other.forward_extinction;
         self.error += other.error;
         self.spheres += other.spheres;
         self

@@ -62,9 +62,13 @@ impl<O: Outline> AnyOutline for O {
 
 /// A body by its own formula. Two are equal when they are copies of one.
 #[derive(Clone, Debug)]
-pub struct OwnBody {
+pub struct OwnBody(Arc<Own>);
+
+/// What a body of one's own holds.
+#[derive(Debug)]
+struct Own {
     name: String,
-    outline: Arc<dyn AnyOutline>,
+    outline: Box<dyn AnyOutline>,
     /// Radius of the sphere of equal volume, in the unit of the formula.
     unit: f64,
     /// Makes `F` as steep at the equator as that of the sphere.
@@ -75,7 +79,7 @@ pub struct OwnBody {
 
 impl PartialEq for OwnBody {
     fn eq(&self, other: &Self) -> bool {
-        self.name == other.name && Arc::ptr_eq(&self.outline, &other.outline)
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
@@ -118,34 +122,34 @@ impl OwnBody {
         }
         // the extremes may lie between the directions
         let radii = (least / unit * 0.999, most / unit * 1.001);
-        let (name, outline) = (name.into(), Arc::new(outline));
-        Ok(Self { name, outline, unit, steepness: 1.0 / gradient, radii })
+        let (name, outline) = (name.into(), Box::new(outline));
+        Ok(Self(Arc::new(Own { name, outline, unit, steepness: 1.0 / gradient, radii })))
     }
 
     /// What it is called.
     pub fn name(&self) -> &str {
-        &self.name
+        &self.0.name
     }
 
     pub(super) fn is_sphere(&self) -> bool {
         // what the margins of the extremes leave of equal radii
-        self.radii.1 - self.radii.0 < 0.002 * (1.0 + 1e-9)
+        self.0.radii.1 - self.0.radii.0 < 0.002 * (1.0 + 1e-9)
     }
 
     pub(super) fn bounding_radius(&self) -> f64 {
-        self.radii.1
+        self.0.radii.1
     }
 
     /// Every line through this core hits the body, and the formula may be singular in it.
     pub(super) fn rough_core(&self) -> f64 {
-        0.5 * self.radii.0
+        0.5 * self.0.radii.0
     }
 
     /// `F` with its derivatives, in the unit and of the steepness of the other kinds.
     fn jet<T: Scalar>(&self, q: T, depth: T) -> Jet<T> {
-        let (u, s) = (self.unit, self.steepness);
+        let (u, s) = (self.0.unit, self.0.steepness);
         let jet = if T::REAL {
-            let jet = self.outline.real(q.re() * u * u, depth.re() * u);
+            let jet = self.0.outline.real(q.re() * u * u, depth.re() * u);
             Jet {
                 value: T::real(jet.value),
                 x: T::real(jet.x),
@@ -155,7 +159,7 @@ impl OwnBody {
                 yy: T::real(jet.yy),
             }
         } else {
-            let jet = self.outline.complex(q.complex() * (u * u), depth.complex() * u);
+            let jet = self.0.outline.complex(q.complex() * (u * u), depth.complex() * u);
             Jet {
                 value: T::of_complex(jet.value),
                 x: T::of_complex(jet.x),
@@ -291,7 +295,7 @@ mod tests {
             let gamma = |k: f64| libm::tgamma(1.0 + k / exponent);
             // over that of the unit sphere
             let volume = 1.5 * gamma(1.0) * gamma(2.0) / gamma(3.0);
-            assert!((body.unit.powi(3) / volume - 1.0).abs() < within, "{exponent}");
+            assert!((body.0.unit.powi(3) / volume - 1.0).abs() < within, "{exponent}");
             let pole = Shape::own(body, 0.0).radius_towards(-1.0, 0.0, 0.0);
             assert!((pole * volume.cbrt() - 1.0).abs() < within, "{exponent}");
         }

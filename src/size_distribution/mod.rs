@@ -14,9 +14,12 @@
 //! ```
 
 mod law;
+mod spread;
 
 pub use law::SizeLaw;
+pub use spread::{log_normal_classes, log_normal_sample};
 
+use crate::fault::{Blame, Fault};
 use crate::math::gauss_legendre;
 
 /// Why a distribution cannot be used.
@@ -41,6 +44,12 @@ pub enum SizeError {
     /// The number of particles has no end towards this limit.
     #[error("the number of particles is infinite without a {0} limit")]
     Endless(&'static str),
+}
+
+impl Blame for SizeError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// Number of particles by radius (metres), 1 in all.

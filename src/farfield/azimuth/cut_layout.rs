@@ -24,6 +24,10 @@ pub struct CutLayout {
     pub knots: Vec<usize>,
     /// Circumference of the sphere of equal volume over the wavelength.
     pub size_parameter: f64,
+    /// Whether the order's rays cross the axis again.
+    pub high: bool,
+    /// Whether a fold's rays may come near total reflection inside.
+    pub near_critical: bool,
     /// Where an integral takes over from rays near the rim.
     pub rim: Option<NearGrazingLayout>,
     /// Where the edge wave takes over from reflected rays, by the cosine of the grazing angle.

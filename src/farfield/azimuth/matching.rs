@@ -70,7 +70,7 @@ pub(crate) fn trace(
         return None;
     }
     // others decide on a fold's segment, too, so that few azimuths are treated as many are
-    let deciding = near_critical::serves(tracer, order) && places.len() < DECIDING;
+    let deciding = layout.near_critical && places.len() < DECIDING;
     let others: Vec<Option<DeflectionCurve>> = (0..if deciding { DECIDING } else { 0 })
         .map(|j| curve(PI * j as f64 / (DECIDING - 1) as f64))
         .map(|curve| curve.filter(|curve| curve.signature() == signature))
@@ -210,6 +210,9 @@ fn avoid_total_reflection(
     curves: &[(&DeflectionCurve, &Vec<[Node; 2]>)],
     layout: &mut CutLayout,
 ) -> bool {
+    if !layout.near_critical {
+        return false;
+    }
     let critical: Vec<Vec<f64>> =
         curves.iter().map(|(curve, ends)| near_critical::critical_angles(curve, ends)).collect();
     let mut changed = false;

@@ -3,6 +3,7 @@
 use super::azimuthal_smoothness::azimuthal_smoothness;
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, trace};
+use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
 use crate::farfield::branch::accumulate::Side;
 use crate::farfield::branch::knots::{
     CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment,
@@ -24,18 +25,11 @@ use std::f64::consts::{PI, TAU};
 /// pairs, and for those with rim waves, whose phases change faster.
 const HALF_TURN_STEPS: usize = 40;
 const HALF_TURN_STEPS_RIM: usize = 60;
-/// How far planes may differ from what their neighbours make of them (see [`azimuthal_smoothness`]) to be
-/// interpolated over azimuth; else there are some times more, and if that does not help those asked for
-/// are traced one by one. Interpolation between them has steps half as long and more neighbours, and
-/// errs by a small part of that.
-const ROUGHEST: f64 = 0.2;
+/// Planes too rough over azimuth for interpolation are so many times more; if that does not help, those
+/// asked for are traced one by one.
 const FINER: usize = 4;
-/// The last order that is worth it: higher ones are weak, and their waves have many knots.
-const LAST_CHECKED: u32 = 3;
 /// Neighbours in the interpolation over azimuth.
 const STENCIL: usize = 8;
-/// Order times deformation from which planes no longer correspond across the axis.
-const HOPELESS_TANGLE: f64 = 0.068;
 
 /// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
 pub(crate) struct OrderPlanes {
@@ -45,6 +39,8 @@ pub(crate) struct OrderPlanes {
     pub layout: CutLayout,
     /// Lowest and highest angle of each segment over all planes, with some room.
     spans: Vec<(f64, f64)>,
+    /// How many segments there are before those of the penumbra.
+    beside_penumbra: usize,
     /// Waves about the axis, where nothing depends on azimuth.
     pub about_axis: Vec<Glory>,
     pub axis_gap: f64,
@@ -68,23 +64,28 @@ impl OrderPlanes {
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
+        by: &Thresholds,
     ) -> Option<Self> {
         let azimuths = azimuths(tracer, settings);
-        let checked = order <= LAST_CHECKED && matches!(azimuths, Azimuths::Even);
-        let found = Self::at(tracer, order, settings, edge, azimuths, 1)?;
-        let rough =
-            |found: &Self| azimuthal_smoothness(&found.planes, settings.size_parameter) > ROUGHEST;
+        let checked = order <= by.last_smoothed_order && matches!(azimuths, Azimuths::Even);
+        let at = |azimuths: Azimuths, finer: usize| {
+            Self::at(tracer, order, settings, edge, by, azimuths, finer)
+        };
+        let found = at(azimuths, 1)?;
+        let rough = |found: &Self| {
+            azimuthal_smoothness(&found.planes, settings.size_parameter) > by.roughest
+        };
         if !checked || !rough(&found) {
             return Some(found);
         }
         let listed = listed(settings);
         if listed.len() > FINER * found.planes.len() {
-            let finer = Self::at(tracer, order, settings, edge, Azimuths::Even, FINER);
+            let finer = at(Azimuths::Even, FINER);
             if let Some(found) = finer.filter(|found| !rough(found)) {
                 return Some(found);
             }
         }
-        Self::at(tracer, order, settings, edge, Azimuths::Listed(listed), 1)
+        at(Azimuths::Listed(listed), 1)
     }
 
     /// With planes at these azimuths, `finer` times as many as usual where they are even.
@@ -93,16 +94,18 @@ impl OrderPlanes {
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
+        by: &Thresholds,
         azimuths: Azimuths,
         finer: usize,
     ) -> Option<Self> {
         let centre = axial_ray(tracer, order);
-        let steps = finer * if order > 3 { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
+        let high = by.is_high(order);
+        let steps = finer * if high { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
         let places = azimuths.places(settings, steps);
         // knots per radian at 1 %: the strongest orders have more
         let density = if order == 0 && edge.is_some() {
             48.0
-        } else if order <= 2 {
+        } else if order < by.first_sparse_order {
             36.0
         } else {
             16.0
@@ -110,11 +113,14 @@ impl OrderPlanes {
         let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let caustic_disorder = caustic_disorder(tracer, order);
         let x = settings.size_parameter;
-        let with_rim = axis_gaps(order, caustic_disorder, true).into_iter().filter_map(|gap| {
-            let rim = rim_layout(tracer, order, x, caustic_disorder, gap)?;
+        let near_critical = by.near_critical_serves(order, tracer.shape().rotational_symmetry());
+        let gaps = axis_gaps(caustic_disorder);
+        let with_rim = gaps.iter().filter_map(|&gap| {
+            let rim = rim_layout(by, tracer, order, x, caustic_disorder, gap)?;
             Some((Some(rim), gap))
         });
-        let without = axis_gaps(order, caustic_disorder, false).into_iter().map(|gap| (None, gap));
+        let serves = !by.is_hopeless(order, caustic_disorder);
+        let without = gaps.iter().filter(|_| serves).map(|&gap| (None, gap));
         let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = CutLayout {
@@ -125,23 +131,67 @@ impl OrderPlanes {
                 density,
                 knots: Vec::new(),
                 size_parameter: x,
+                high,
+                near_critical,
                 rim,
                 edge: edge.map(Penumbra::taper),
             };
             let traced = trace(tracer, order, centre, &places, layout, caustic_disorder)?;
             let Traced { mut planes, layout, about_axis } = traced;
+            let beside_penumbra = planes.first().map_or(0, Vec::len);
             for (segments, &azimuth) in planes.iter_mut().zip(&places) {
                 segments.extend(edge.iter().flat_map(|edge| edge.segments(azimuth)));
             }
             let spans = spans(&planes);
             let azimuths = azimuths.clone();
-            Some(Self { order, planes, layout, spans, about_axis, axis_gap, azimuths })
+            Some(Self {
+                order,
+                planes,
+                layout,
+                spans,
+                beside_penumbra,
+                about_axis,
+                axis_gap,
+                azimuths,
+            })
         })
     }
 
     /// How many segments each plane has.
     pub(crate) fn segments_per_plane(&self) -> usize {
         self.planes.first().map_or(0, Vec::len)
+    }
+
+    /// How densely planes were traced.
+    pub(crate) fn spacing(&self) -> Spacing {
+        match self.azimuths {
+            Azimuths::Any => Spacing::One,
+            Azimuths::Even => Spacing::Even(self.planes.len()),
+            Azimuths::Listed(_) => Spacing::Asked,
+        }
+    }
+
+    /// Where formulas stand for single rays.
+    pub(crate) fn formulas(&self) -> Vec<FormulaRange> {
+        let Some(segments) = self.planes.first() else { return Vec::new() };
+        let near_rim = self.layout.rim.as_ref().map_or(0, |rim| rim.knots.len());
+        let first_near_rim = self.beside_penumbra - near_rim;
+        let formula = |(number, segment): (usize, &Segment)| {
+            let formula = match segment.kind {
+                Kind::Plain { .. } => return None,
+                Kind::Pair { .. } => Formula::AiryPair,
+                Kind::Wave if number >= self.beside_penumbra => Formula::Penumbra,
+                Kind::Wave if number >= first_near_rim => Formula::NearGrazing,
+                Kind::Wave => Formula::NearCritical,
+            };
+            let (low, high) = self.spans[number];
+            Some(FormulaRange { formula, theta: scattering_angles(low, high) })
+        };
+        let about_axis = self
+            .about_axis
+            .iter()
+            .map(|wave| FormulaRange { formula: Formula::AxialRings, theta: wave.theta() });
+        merged(segments.iter().enumerate().filter_map(formula).chain(about_axis))
     }
 
     /// Whether the order has an axis gap about θ = 0 or π.
@@ -195,23 +245,38 @@ impl OrderPlanes {
     }
 }
 
-/// How far rays of an order stray from those of a sphere: order times deformation of the outline.
-pub(crate) fn caustic_disorder(tracer: &Tracer, order: u32) -> f64 {
-    let silhouette = tracer.shape().silhouette();
-    let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
-    let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
-    f64::from(order) * (high - low)
+/// Ranges of the same formula that meet, as one.
+fn merged(ranges: impl Iterator<Item = FormulaRange>) -> Vec<FormulaRange> {
+    let mut all: Vec<FormulaRange> = Vec::new();
+    for range in ranges {
+        let [low, high] = range.theta;
+        let meets = |other: &&mut FormulaRange| {
+            other.formula == range.formula && low <= other.theta[1] && other.theta[0] <= high
+        };
+        match all.iter_mut().find(meets) {
+            Some(other) => other.theta = [low.min(other.theta[0]), high.max(other.theta[1])],
+            None => all.push(range),
+        }
+    }
+    all
+}
+
+/// Scattering angles of a stretch of unwrapped ones.
+fn scattering_angles(low: f64, high: f64) -> [f64; 2] {
+    let theta = |angle: f64| {
+        let turned = angle.rem_euclid(TAU);
+        turned.min(TAU - turned)
+    };
+    let [a, b] = [theta(low), theta(high)];
+    let meets = |axis: f64| ((high - axis) / TAU).floor() >= ((low - axis) / TAU).ceil();
+    [if meets(0.0) { 0.0 } else { a.min(b) }, if meets(PI) { PI } else { a.max(b) }]
 }
 
 /// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
 /// and with the deformation of the outline.
-fn axis_gaps(order: u32, caustic_disorder: f64, rim: bool) -> Vec<f64> {
+fn axis_gaps(caustic_disorder: f64) -> Vec<f64> {
     const NARROWEST: f64 = 0.02;
     const WIDEST: f64 = 0.35;
-    // Orders up to 3 do not cross the axis again; those that do are hopeless beyond this.
-    if order > 3 && caustic_disorder > HOPELESS_TANGLE && !rim {
-        return Vec::new();
-    }
     let mut gaps = [3.0, 6.0].map(|f| (f * caustic_disorder).clamp(NARROWEST, WIDEST)).to_vec();
     gaps.dedup();
     gaps
@@ -265,6 +330,7 @@ fn blend_with<const FMA: bool>(
 
 /// Where the integral over rays near the rim takes over, if it serves this order.
 fn rim_layout(
+    by: &Thresholds,
     tracer: &Tracer,
     order: u32,
     x: f64,
@@ -273,6 +339,7 @@ fn rim_layout(
 ) -> Option<NearGrazingLayout> {
     let rotational = tracer.shape().rotational_symmetry();
     let marks = near_grazing_layout::taper(
+        by,
         tracer.index().re,
         order,
         x,
@@ -329,5 +396,19 @@ impl Azimuths {
                 (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unwrapped_stretches_fold_onto_scattering_angles() {
+        let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() + (b - d).abs() < 1e-12;
+        assert!(near(scattering_angles(1.0, 2.0), [1.0, 2.0]));
+        assert!(near(scattering_angles(TAU - 2.0, TAU - 1.0), [1.0, 2.0]));
+        assert!(near(scattering_angles(PI - 0.1, PI + 0.3), [PI - 0.3, PI]));
+        assert!(near(scattering_angles(-0.2, 0.1), [0.0, 0.2]));
     }
 }

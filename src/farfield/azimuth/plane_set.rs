@@ -4,10 +4,11 @@
 //! all planes of an order have the same landmarks, their segments vary smoothly with azimuth and
 //! any column is interpolated from eight neighbours. When few columns are asked for, their own
 //! planes are traced instead. Orders whose planes do not correspond (more than two rays
-//! coalesce somewhere: cusps, umbilics) are named in [`PlaneSet::irregular`].
+//! coalesce somewhere: cusps, umbilics) are told by [`PlaneSet::outcomes`].
 
 use super::matching::another;
-use super::order_planes::{Azimuths, OrderPlanes, caustic_disorder, mirror};
+use super::order_planes::{Azimuths, OrderPlanes, mirror};
+use crate::farfield::assignment::{PlanesOutcome, Thresholds};
 use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
 use crate::farfield::branch::knots::{Kind, Segment};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
@@ -26,8 +27,8 @@ pub struct PlaneSet {
     edge: Option<Penumbra>,
     /// The azimuth asked for that is about as far as can be from those traced.
     pub(crate) checked_azimuth: f64,
-    /// Orders that this method does not represent.
-    pub irregular: Vec<u32>,
+    /// Orders whose planes do not correspond.
+    unmatched: Vec<u32>,
 }
 
 /// A stretch of exit angles whose wave is computed by one formula.
@@ -47,7 +48,12 @@ const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
 
 impl PlaneSet {
     /// Trace all planes of a particle with this shadow.
-    pub fn new(tracer: &Tracer, settings: &FarFieldSettings, shadow: &ForwardDiffraction) -> Self {
+    pub fn new(
+        tracer: &Tracer,
+        settings: &FarFieldSettings,
+        shadow: &ForwardDiffraction,
+        by: &Thresholds,
+    ) -> Self {
         let joined = settings.diffraction && settings.orders.contains(&0);
         let edge = joined.then(|| Penumbra::new(tracer, shadow, settings.size_parameter)).flatten();
         let traced_orders: Vec<(u32, Option<OrderPlanes>)> = settings
@@ -55,18 +61,18 @@ impl PlaneSet {
             .par_iter()
             .map(|&order| {
                 let edge = edge.as_ref().filter(|_| order == 0);
-                (order, OrderPlanes::new(tracer, order, settings, edge))
+                (order, OrderPlanes::new(tracer, order, settings, edge, by))
             })
             .collect();
-        let irregular: Vec<u32> =
+        let unmatched: Vec<u32> =
             traced_orders.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
         let orders = traced_orders.into_iter().filter_map(|f| f.1).collect();
-        let edge = edge.filter(|_| !irregular.contains(&0));
+        let edge = edge.filter(|_| !unmatched.contains(&0));
         let off = |azimuth: &f64| (azimuth - CHECKED_AZIMUTH).abs();
         let nearest = settings.azimuths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         let checked_azimuth = nearest.copied().unwrap_or(CHECKED_AZIMUTH);
         let size_parameter = settings.size_parameter;
-        Self { size_parameter, orders, edge, checked_azimuth, irregular }
+        Self { size_parameter, orders, edge, checked_azimuth, unmatched }
     }
 
     /// The edge wave, if diffraction and order 0 are joined.
@@ -74,10 +80,14 @@ impl PlaneSet {
         self.edge.as_ref()
     }
 
-    /// Orders that are represented, whose rays stray by more than `least` (see [`caustic_disorder`]).
-    pub(crate) fn regular_orders(&self, least: f64, tracer: &Tracer) -> Vec<u32> {
-        let orders = self.orders.iter().map(|planes| planes.order);
-        orders.filter(|&order| caustic_disorder(tracer, order) > least).collect()
+    /// What became of each order.
+    pub(crate) fn outcomes(&self) -> Vec<PlanesOutcome> {
+        let found = self.orders.iter().map(|planes| PlanesOutcome {
+            order: planes.order,
+            found: Some((planes.spacing(), planes.formulas())),
+        });
+        let lost = self.unmatched.iter().map(|&order| PlanesOutcome { order, found: None });
+        found.chain(lost).collect()
     }
 
     /// Some azimuths at which an order can be asked for.
@@ -97,11 +107,10 @@ impl PlaneSet {
         }
     }
 
-    /// Leave an order to others.
-    pub(crate) fn give_up(&mut self, order: u32) {
-        self.orders.retain(|planes| planes.order != order);
-        self.irregular.push(order);
-        self.irregular.sort_unstable();
+    /// Only these orders.
+    pub(crate) fn only(self, orders: &[u32]) -> Self {
+        let kept = self.orders.into_iter().filter(|planes| orders.contains(&planes.order));
+        Self { orders: kept.collect(), ..self }
     }
 
     /// One order's amplitudes at samples θ (ascending) of an azimuth in [0, π].

@@ -140,11 +140,11 @@ impl DeflectionCurve<'_> {
     }
 
     /// The spread of a ray, kept from zero where rays meet across the plane.
-    fn bounded_spread(&self, node: &Node) -> f64 {
+    fn bounded_spread(&self, node: &Node, layout: &CutLayout) -> f64 {
         const NEAREST: f64 = 0.05;
         let spread = node.exit.spread().abs();
         let symmetric = self.plane().tracer.shape().rotational_symmetry();
-        if self.plane().order <= 3 || symmetric {
+        if !layout.high || symmetric {
             return spread;
         }
         let across = self.plane().spread_across(&node.exit, node.angle).abs();
@@ -160,7 +160,7 @@ impl DeflectionCurve<'_> {
         let share = edge.unwrap_or_else(|| (1.0 - rim.unwrap_or(0.0)).into());
         // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
         // that focus at infinity, as about the axis for indices of 2 and 4.
-        let spread = self.bounded_spread(node).max(4.0 / layout.size_parameter.powi(2));
+        let spread = self.bounded_spread(node, layout).max(4.0 / layout.size_parameter.powi(2));
         let size = share / spread.sqrt();
         let mut knot = [0.0; CHANNELS];
         knot[0] = node.angle;

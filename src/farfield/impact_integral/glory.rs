@@ -85,6 +85,11 @@ impl Glory {
         Some(Self::new(&integrand, &before, number, reach, x))
     }
 
+    /// Least and largest scattering angle that it serves.
+    pub(crate) fn theta(&self) -> [f64; 2] {
+        if self.forward { [0.0, self.reach] } else { [PI - self.reach, PI] }
+    }
+
     /// Add the wave to amplitudes at ascending scattering angles.
     pub(crate) fn add(&self, theta: &[f64], amplitudes: &mut [AmplitudeMatrix]) {
         let off_axis = |theta: f64| if self.forward { theta } else { PI - theta };

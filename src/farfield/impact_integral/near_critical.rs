@@ -15,15 +15,11 @@ use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::fold::Fold;
 use crate::farfield::deflection::scattering_plane::Node;
-use crate::trace::Tracer;
 use std::f64::consts::TAU;
 
 /// Squared cosine outside below which the coefficients of reflection run too fast for a series.
 const NEAR_CRITICAL: f64 = 0.02;
 const BELOW_ENTRY: f64 = 0.5;
-/// The order that is served: order 2 meets total reflection far from its bow, and the bows of higher ones
-/// are made too near the rim.
-const ORDER: u32 = 3;
 /// Fresnel zones of a ray within the taper, and the share of the launch points before it.
 const FRESNEL_ZONES: f64 = 12.0;
 const MOST_ROOM: f64 = 0.9;
@@ -43,18 +39,10 @@ const INNER_SHARE: f64 = 0.6;
 const KNOTS_PER_PERIOD: f64 = 8.0;
 const KNOTS_PER_UNIT: f64 = 2.0;
 
-/// Whether an order of a particle may need the integral at all.
-pub(crate) fn serves(tracer: &Tracer, order: u32) -> bool {
-    order == ORDER && !tracer.shape().rotational_symmetry()
-}
-
 /// Whether a ray meets the surface inside near or beyond the critical angle, other than by being near
 /// the rim.
-pub(crate) fn meets_total_reflection(curve: &DeflectionCurve, ray: &Node) -> bool {
+fn meets_total_reflection(curve: &DeflectionCurve, ray: &Node) -> bool {
     let plane = curve.plane();
-    if !serves(plane.tracer, plane.order) {
-        return false;
-    }
     let mut meetings = Vec::new();
     let [u, v] = ray.place;
     plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings);

@@ -2,6 +2,7 @@
 //! same for all planes of an order.
 
 use super::rays::{RAYS, Rays};
+use crate::farfield::assignment::Thresholds;
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use std::f64::consts::{PI, TAU};
@@ -26,11 +27,6 @@ pub struct NearGrazingLayout {
     rotational: bool,
 }
 
-/// Lowest order served, and the same for deformed particles: there the secondary bow's wave changes
-/// too fast with azimuth to be interpolated, its penumbra from continued polynomials is not
-/// reciprocal, and two rays serve nearly as well.
-const FIRST_ORDER: u32 = 2;
-const FIRST_ORDER_DEFORMED: u32 = 4;
 /// Widths of the Airy function between the bow's ray and the start of the taper.
 const AIRY_WIDTHS: f64 = 5.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
@@ -44,7 +40,7 @@ const KNOTS_PER_PERIOD: f64 = 4.0;
 fn bow(index: f64, order: u32) -> Option<f64> {
     let p = f64::from(order);
     let square = 1.0 - (index * index - 1.0) / (p * p - 1.0);
-    (square > 0.0 && square < 1.0 && index > 1.05).then(|| square.sqrt())
+    (square > 0.0 && square < 1.0).then(|| square.sqrt())
 }
 
 /// Slope and third derivative of a sphere's deviation by impact.
@@ -64,6 +60,7 @@ fn deviation(index: f64, order: u32, b: f64) -> f64 {
 /// stray by `caustic_disorder`; rays in it keep farther than `axis_gap` from the axis. `None` where the
 /// integral would reach too far inside, or too little is left for the taper.
 pub fn taper(
+    by: &Thresholds,
     index: f64,
     order: u32,
     size_parameter: f64,
@@ -76,8 +73,7 @@ pub fn taper(
     const FEWEST_ZONES: f64 = 5.0;
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
-    let first = if rotational { FIRST_ORDER } else { FIRST_ORDER_DEFORMED };
-    let b = bow(index, order).filter(|_| order >= first)?;
+    let b = bow(index, order).filter(|_| by.near_grazing_serves(index, order, rotational))?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
     let mut full = b - AIRY_WIDTHS * airy - caustic_disorder;
@@ -88,7 +84,7 @@ pub fn taper(
         return None;
     }
     let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
-    let zones = if order <= 3 { FRESNEL_ZONES } else { FRESNEL_ZONES_HIGH };
+    let zones = if by.is_high(order) { FRESNEL_ZONES_HIGH } else { FRESNEL_ZONES };
     let mut start = (full - zones * zone(full)).max(0.5 * full);
     if !rotational {
         start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);

@@ -1,7 +1,7 @@
 //! Rays of one order along a line of launch points, as smooth functions of the exit ray's impact.
 //!
 //! The line goes to the rim from the launch point of the ray whose exit line passes through the particle's
-//! centre (orders from 4 on: from the middle of the shadow, its steep rays left out). What the wave of a
+//! centre (high orders, which hold next to nothing in rays that meet the surface steeply: from the middle of the shadow, its steep rays left out). What the wave of a
 //! ray needs is a polynomial along it, less what it is on a sphere, and continued beyond the last ray,
 //! where waves tunnel through the surface. Parts that are not analytic there, odd in the grazing angle of
 //! the entry and of the exit, are taken out as on a sphere: paths are measured between the turning points
@@ -24,9 +24,7 @@ const DEGREE: usize = 16;
 /// Where the line begins, and the share of it left out before the last ray.
 const BEGIN: f64 = 0.02;
 const SPARE: f64 = 0.02;
-/// Orders from this on hold next to nothing in rays that meet the surface steeply, and those stray far
-/// on deformed particles: they rise between two launch points.
-const FIRST_OF_THE_RIM: u32 = 4;
+/// Lines of high orders rise between two launch points.
 const RISE: Window = Window { start: 0.45, full: 0.65 };
 /// How far the phase of the density may be off, times 4.
 const LARGEST_TURN: f64 = 1.0;
@@ -51,6 +49,8 @@ const MEETINGS: usize = 11;
 pub(crate) struct RadialLine {
     channels: Vec<Chebyshev<1>>,
     order: usize,
+    /// Whether the line begins at the centre.
+    whole: bool,
     azimuth: f64,
     index: f64,
     /// Sign of the incidence along the frame's first axis.
@@ -80,12 +80,13 @@ pub(crate) fn central_ray(
     tracer: &Tracer,
     silhouette: &Silhouette,
     order: u32,
+    whole: bool,
 ) -> Option<[f64; 2]> {
     const STEPS: usize = 40;
     const RADII: usize = 16;
     const AZIMUTHS: usize = 24;
     const LONGEST: f64 = 0.05;
-    if order >= FIRST_OF_THE_RIM {
+    if !whole {
         return Some([0.0; 2]);
     }
     let impact = |place: [f64; 2]| {
@@ -131,12 +132,13 @@ impl RadialLine {
         centre: [f64; 2],
         azimuth: f64,
         x: f64,
+        whole: bool,
     ) -> Option<Self> {
         let way = Way::new(tracer, silhouette, order, centre, azimuth);
         let index = tracer.index().re;
         let to = way.last_real().filter(|_| index > 1.0)?;
         let inside = |s: f64| (s / index).asin();
-        let begin = if order < FIRST_OF_THE_RIM { BEGIN } else { RISE.start };
+        let begin = if whole { BEGIN } else { RISE.start };
         let (from, last) = (inside(begin), inside((1.0 - SPARE) * to));
         let points = chebyshev::points(RAYS, from, last);
         let sense = way.sense(index * last.sin())?;
@@ -158,8 +160,19 @@ impl RadialLine {
         let wanted = way.root(anchor)?;
         let order = order as usize;
         let turn = Complex64::from(1.0);
-        let mut line =
-            Self { channels, order, azimuth, index, sense, from, last, end: last, anchor, turn };
+        let mut line = Self {
+            channels,
+            order,
+            whole,
+            azimuth,
+            index,
+            sense,
+            from,
+            last,
+            end: last,
+            anchor,
+            turn,
+        };
         let turn = wanted / line.root(anchor);
         line.turn = turn / turn.norm();
         // one of four, unless the polynomials fail
@@ -170,11 +183,6 @@ impl RadialLine {
         let end = index * grazing.sin() + TUNNEL * x.powf(-2.0 / 3.0);
         line.end = inside(end.min(index)).min(STEEPEST);
         Some(line)
-    }
-
-    /// Whether the line begins at the centre.
-    fn whole(&self) -> bool {
-        self.order < FIRST_OF_THE_RIM as usize
     }
 
     /// A channel and its slope.
@@ -271,7 +279,7 @@ impl RadialLine {
     /// Rings of the impacts `(l + ½)/x`, without the weight of this azimuth; the first `l` beside.
     pub(crate) fn rings(&self, index: Complex64, x: f64) -> (usize, Vec<Ring>) {
         // lines that begin near the centre are continued to it
-        let from = if self.whole() { 0.0 } else { self.impact(self.from).0 };
+        let from = if self.whole { 0.0 } else { self.impact(self.from).0 };
         let first = (x * from - 0.5).ceil().max(1.0) as usize;
         let mut tau = self.from;
         let mut rings = Vec::new();
@@ -307,7 +315,7 @@ impl RadialLine {
         let absorbed = (-x * index.im * inside / index.re).exp();
         let wave = Complex64::cis(TAU * (x / TAU * self.path(tau)).fract());
         let s = self.index * tau.sin();
-        let rise = if self.whole() { 1.0 } else { RISE.weight(s) };
+        let rise = if self.whole { 1.0 } else { RISE.weight(s) };
         let weight = wave * self.root(tau) * (x / TAU * s * absorbed * rise);
         let (sin, cos) = self.azimuth.sin_cos();
         let fields = [

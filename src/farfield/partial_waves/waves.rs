@@ -14,7 +14,7 @@
 //! in the WKB form, with impacts beyond the rim where waves tunnel ([`crate::farfield::impact_integral::near_grazing`]).
 
 use super::radial_line::{RadialLine, Ring, central_ray};
-use crate::farfield::settings::FarFieldSettings;
+use crate::farfield::assignment::Thresholds;
 use crate::math::spherical_harmonics::legendre;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
@@ -23,8 +23,6 @@ use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Size parameter from which on other methods are quicker, and as good.
-const FIRST_TOO_LARGE: f64 = 600.0;
 /// Azimuths of launch points to look at how far planes are tilted.
 const PROBES: usize = 16;
 /// Samples of the scattering angle per period of the highest partial wave.
@@ -50,29 +48,12 @@ pub struct PartialWaves {
 type Potentials = Vec<[Complex64; 4]>;
 
 impl PartialWaves {
-    /// The transmitted orders of a small particle, and the orders that are left to other methods; only
-    /// `deformed` particles have them.
-    pub(crate) fn of_small_particles(
-        tracer: &Tracer,
-        settings: &FarFieldSettings,
-        deformed: bool,
-    ) -> (Option<Self>, Vec<u32>) {
-        let (x, all) = (settings.size_parameter, settings.orders);
-        let first = all.partition_point(|&order| order == 0);
-        if x >= FIRST_TOO_LARGE || first == all.len() || !deformed {
-            return (None, all.to_vec());
-        }
-        let (waves, missed) = Self::new(tracer, &all[first..], x);
-        let left = all[..first].iter().copied().chain(missed).collect();
-        (Some(waves), left)
-    }
-
     /// Of some orders; those whose rays cannot be followed are returned beside.
-    pub fn new(tracer: &Tracer, orders: &[u32], x: f64) -> (Self, Vec<u32>) {
+    pub fn new(tracer: &Tracer, orders: &[u32], x: f64, by: &Thresholds) -> (Self, Vec<u32>) {
         let mut sums: Vec<Potentials> = Vec::new();
         let mut missed = Vec::new();
         for &order in orders {
-            match potentials(tracer, order, x) {
+            match potentials(tracer, order, x, !by.is_high(order)) {
                 Some(found) => add(&mut sums, found),
                 None => missed.push(order),
             }
@@ -210,13 +191,13 @@ fn add(sums: &mut Vec<Potentials>, found: Vec<Potentials>) {
     }
 }
 
-/// The potentials of one order, for `l` from 1.
-fn potentials(tracer: &Tracer, order: u32, x: f64) -> Option<Vec<Potentials>> {
+/// The potentials of one order, for `l` from 1; `whole` lines of rays begin at the centre.
+fn potentials(tracer: &Tracer, order: u32, x: f64, whole: bool) -> Option<Vec<Potentials>> {
     let silhouette = tracer.shape().silhouette();
-    let centre = central_ray(tracer, &silhouette, order)?;
+    let centre = central_ray(tracer, &silhouette, order, whole)?;
     let line = |k: usize, count: usize| {
         let azimuth = TAU * (k as f64 + 0.5) / count as f64;
-        RadialLine::new(tracer, &silhouette, order, centre, azimuth, x)
+        RadialLine::new(tracer, &silhouette, order, centre, azimuth, x, whole)
     };
     let probes = (0..PROBES).map(|k| line(k, PROBES)).collect::<Option<Vec<_>>>()?;
     let twist = probes.iter().map(RadialLine::largest_twist).fold(0.0, f64::max);

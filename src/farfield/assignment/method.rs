@@ -1,0 +1,144 @@
+//! What can compute the wave of an order, by which formula in which directions, and why it does.
+
+use std::fmt;
+
+/// What computes the wave of an order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Rays of scattering planes ([`crate::farfield::azimuth`]).
+    Planes,
+    /// [`crate::farfield::partial_waves`].
+    PartialWaves,
+    /// [`crate::farfield::gaussian_beams`].
+    Beams,
+    /// [`crate::farfield::patches`].
+    Patches,
+}
+
+impl Method {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Method::Planes => "rays of scattering planes",
+            Method::PartialWaves => "partial waves from rays",
+            Method::Beams => "Gaussian beams",
+            Method::Patches => "patches of rays",
+        }
+    }
+}
+
+/// What scattering planes have in place of one ray per direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formula {
+    /// Two rays of a bow with uniform Airy functions.
+    AiryPair,
+    /// An integral over impacts where a bow's rays come near total reflection inside.
+    NearCritical,
+    /// An integral over impacts near the rim, and beyond it.
+    NearGrazing,
+    /// Rings of rays about the axis: Bessel functions.
+    AxialRings,
+    /// Reflection and diffraction at the edge of the shadow in one.
+    Penumbra,
+}
+
+impl Formula {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Formula::AiryPair => "Airy functions at a bow",
+            Formula::NearCritical => "integral over impacts near total reflection",
+            Formula::NearGrazing => "integral over impacts near the rim",
+            Formula::AxialRings => "rings about the axis",
+            Formula::Penumbra => "penumbra of the shadow's edge",
+        }
+    }
+}
+
+/// Where a formula stands for single rays, at some azimuth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FormulaRange {
+    /// What stands there.
+    pub formula: Formula,
+    /// Least and largest scattering angle, radians.
+    pub theta: [f64; 2],
+}
+
+/// Where the planes of an order are traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spacing {
+    /// One stands for all.
+    One,
+    /// At so many azimuths over a half-turn; others are interpolated.
+    Even(usize),
+    /// At each azimuth that was asked for.
+    Asked,
+}
+
+/// Why a method has an order, in the order in which it came about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// The scene asks for it.
+    Asked,
+    /// Order 0, which is one with the penumbra.
+    Reflection,
+    /// Nothing depends on azimuth.
+    OnePlane,
+    /// Rays stray so far from those of a sphere (caustic disorder), and no farther.
+    Ordered(f64),
+    /// The particle is smaller than this size parameter.
+    Small(f64),
+    /// Radial lines of launch points lose their rays.
+    RadialLinesLost,
+    /// Planes do not match from azimuth to azimuth.
+    Unmatched,
+    /// Rays stray farther than so much, here the second.
+    Disordered(f64, f64),
+    /// Planes and beams were compared, and differ by no more than this share of the amplitude in a band.
+    Agrees(f64),
+    /// The same, more than is allowed, here the second.
+    Differs(f64, f64),
+    /// Planes are traced there.
+    Traced(Spacing),
+    /// Beams are fine enough from a size parameter on, and asked for up to a tolerance.
+    Fine(f64, f64),
+    /// Beams are not: the size parameter is below, or the tolerance above.
+    CoarseEnough(f64, f64),
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Reason::Asked => write!(f, "asked for: interference off, or no \"airy\" diffraction"),
+            Reason::Reflection => write!(f, "reflection, one with the shadow's edge"),
+            Reason::OnePlane => write!(f, "nothing depends on azimuth"),
+            Reason::Ordered(disorder) => {
+                write!(f, "rays stray {disorder:.3} from a sphere's and match over azimuth")
+            }
+            Reason::Small(limit) => write!(f, "size parameter below {limit}"),
+            Reason::RadialLinesLost => write!(f, "radial lines of rays break off"),
+            Reason::Unmatched => write!(f, "planes do not match over azimuth"),
+            Reason::Disordered(disorder, limit) => {
+                write!(f, "rays stray {disorder:.3} from a sphere's, above {limit}")
+            }
+            Reason::Agrees(share) => {
+                write!(f, "Gaussian beams agree within {:.0} %", 100.0 * share)
+            }
+            Reason::Differs(share, limit) => write!(
+                f,
+                "planes and Gaussian beams differ by {:.0} %, above {:.0} %",
+                100.0 * share,
+                100.0 * limit
+            ),
+            Reason::Traced(Spacing::One) => write!(f, "one plane stands for all"),
+            Reason::Traced(Spacing::Even(count)) => write!(f, "interpolated from {count} planes"),
+            Reason::Traced(Spacing::Asked) => write!(f, "traced at each azimuth asked for"),
+            Reason::Fine(size, tolerance) => {
+                write!(f, "size parameter from {size} on, tolerance up to {tolerance}")
+            }
+            Reason::CoarseEnough(size, tolerance) => {
+                write!(f, "size parameter below {size} or tolerance above {tolerance}")
+            }
+        }
+    }
+}

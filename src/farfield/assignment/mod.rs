@@ -1,0 +1,429 @@
+//! Which method stands for which order, why, and how far its wave may be off: the one place that decides.
+//!
+//! Decided first by the scene alone: where few wavelengths fit into a deformed particle, all caustics of
+//! an order lie in one wave zone, and it is a sum over partial waves ([`crate::farfield::partial_waves`]);
+//! else scattering planes serve ([`crate::farfield::azimuth`]). What turns out on trial is an [`Outcome`], a
+//! value, and [`Assignment::after`] makes the next assignment of it: orders whose planes do not match, or
+//! differ grossly from a second method, go to beams or patches. [`crate::farfield::FarField`] obeys. All
+//! numbers by which this goes are in the [`Thresholds`].
+//!
+//! ```
+//! use gonio::farfield::assignment::{Assignment, Method, Outcome, Thresholds};
+//! use gonio::{shape::Shape, trace::Tracer};
+//! let shape = Shape::spheroid(0.95, 0.0)?;
+//! let tracer = Tracer::new(&shape, 1.333.into(), 200.0, 2);
+//! let first = Assignment::new(&tracer, &[0, 1, 2], 200.0, 0.01, &Thresholds::MEASURED);
+//! assert_eq!(first.orders_of(Method::Planes), [0]);
+//! assert_eq!(first.orders_of(Method::PartialWaves), [1, 2]);
+//! let second = first.after(Outcome::RadialLines(&[2]));
+//! assert_eq!(second.orders_of(Method::Planes), [0, 2]);
+//! # Ok::<(), gonio::shape::ShapeError>(())
+//! ```
+
+mod method;
+mod thresholds;
+
+pub use method::{Formula, FormulaRange, Method, Reason, Spacing};
+pub use thresholds::Thresholds;
+
+use crate::phase_table::{FormulaPart, MethodPart};
+use crate::trace::Tracer;
+use std::f64::consts::PI;
+
+/// The method of one order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assigned {
+    /// Number of chords.
+    pub order: u32,
+    /// What computes it.
+    pub method: Method,
+    /// Why, in the order in which it came about.
+    pub reasons: Vec<Reason>,
+    /// Share of the amplitude by which the wave may be off.
+    pub expected_error: f64,
+    /// What stands for single rays where; known once planes are traced.
+    pub formulas: Vec<FormulaRange>,
+}
+
+/// What became of an order's planes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanesOutcome {
+    /// Number of chords.
+    pub order: u32,
+    /// `None` where they do not match.
+    pub found: Option<(Spacing, Vec<FormulaRange>)>,
+}
+
+/// How far an order's planes are from a second method: the largest share of the amplitude in a band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Difference {
+    /// Number of chords.
+    pub order: u32,
+    /// Largest difference over the amplitude.
+    pub share: f64,
+}
+
+/// What turned out on trial.
+#[derive(Clone, Copy, Debug)]
+pub enum Outcome<'o> {
+    /// Orders whose radial lines of launch points lose their rays.
+    RadialLines(&'o [u32]),
+    /// Planes of orders, found or not.
+    Planes(&'o [PlanesOutcome]),
+    /// Planes against beams.
+    CrossCheck(&'o [Difference]),
+}
+
+/// Who computes what, in the order in which orders are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    entries: Vec<Assigned>,
+    judge: Judge,
+}
+
+/// The numbers of one particle and wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Judge {
+    by: Thresholds,
+    size_parameter: f64,
+    tolerance: f64,
+    rotational: bool,
+    /// Whether small sizes are sums over partial waves.
+    deformed: bool,
+    /// Caustic disorder per order.
+    disorder: f64,
+}
+
+impl Assignment {
+    /// Decide for some orders.
+    pub fn new(
+        tracer: &Tracer,
+        orders: &[u32],
+        size_parameter: f64,
+        tolerance: f64,
+        by: &Thresholds,
+    ) -> Self {
+        let deformed = !tracer.shape().rotational_symmetry();
+        Self::as_if(deformed, tracer, orders, [size_parameter, tolerance], by)
+    }
+
+    /// The same; `deformed` says whether the particle counts as one: a sphere may stand for it.
+    pub(crate) fn as_if(
+        deformed: bool,
+        tracer: &Tracer,
+        orders: &[u32],
+        [size_parameter, tolerance]: [f64; 2],
+        by: &Thresholds,
+    ) -> Self {
+        let judge = Judge {
+            by: *by,
+            size_parameter,
+            tolerance,
+            rotational: tracer.shape().rotational_symmetry(),
+            deformed,
+            disorder: caustic_disorder(tracer, 1),
+        };
+        let entries = orders.iter().map(|&order| judge.first(order)).collect();
+        Self { entries, judge }
+    }
+
+    /// All orders by patches, as the scene asks.
+    pub fn of_patches(
+        tracer: &Tracer,
+        orders: &[u32],
+        size_parameter: f64,
+        by: &Thresholds,
+    ) -> Self {
+        let mut all = Self::new(tracer, orders, size_parameter, f64::INFINITY, by);
+        for entry in &mut all.entries {
+            *entry = all.judge.patches(entry.order, vec![Reason::Asked]);
+        }
+        all
+    }
+
+    /// What follows from an outcome.
+    #[must_use]
+    pub fn after(self, outcome: Outcome) -> Self {
+        let Self { entries, judge } = self;
+        let next = |entry: Assigned| match outcome {
+            Outcome::RadialLines(lost) => {
+                if entry.method == Method::PartialWaves && lost.contains(&entry.order) {
+                    judge.planes(entry.order, vec![Reason::RadialLinesLost])
+                } else {
+                    entry
+                }
+            }
+            Outcome::Planes(outcomes) => {
+                let of_it = outcomes.iter().find(|o| o.order == entry.order);
+                match of_it.filter(|_| entry.method == Method::Planes) {
+                    Some(outcome) => judge.after_planes(entry, outcome),
+                    None => entry,
+                }
+            }
+            Outcome::CrossCheck(differences) => {
+                let of_it = differences.iter().find(|d| d.order == entry.order);
+                match of_it.filter(|_| entry.method == Method::Planes) {
+                    Some(difference) => judge.after_check(entry, difference.share),
+                    None => entry,
+                }
+            }
+        };
+        Self { entries: entries.into_iter().map(next).collect(), judge }
+    }
+
+    /// The method of each order.
+    pub fn entries(&self) -> &[Assigned] {
+        &self.entries
+    }
+
+    /// By which numbers this was decided.
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.judge.by
+    }
+
+    /// The orders of a method.
+    pub fn orders_of(&self, method: Method) -> Vec<u32> {
+        let of_it = self.entries.iter().filter(|entry| entry.method == method);
+        of_it.map(|entry| entry.order).collect()
+    }
+
+    /// The expected error of an order; 0 where it is not asked for.
+    pub fn error_of(&self, order: u32) -> f64 {
+        let entry = self.entries.iter().find(|entry| entry.order == order);
+        entry.map_or(0.0, |entry| entry.expected_error)
+    }
+
+    /// Orders by planes that are to be compared with beams.
+    pub fn cross_checked(&self) -> Vec<u32> {
+        let judge = &self.judge;
+        if judge.skips_check().is_some() {
+            return Vec::new();
+        }
+        let [first, last] = judge.by.cross_checked_orders;
+        let strays = |order: &u32| judge.disorder_of(*order) > judge.by.cross_checked_disorder;
+        let orders = self.orders_of(Method::Planes).into_iter();
+        orders.filter(|order| (first..=last).contains(order)).filter(strays).collect()
+    }
+
+    /// What is left out, and why.
+    pub fn skipped(&self) -> Vec<String> {
+        let judge = &self.judge;
+        let of = |method| !self.orders_of(method).is_empty();
+        let mut skipped = Vec::new();
+        if of(Method::Planes) {
+            skipped.extend(judge.skips_check());
+        }
+        if judge.deformed && !of(Method::PartialWaves) && of(Method::Planes) {
+            let limit = judge.by.partial_waves_below;
+            skipped.push(format!("partial waves: the size parameter is not below {limit}"));
+        }
+        skipped
+    }
+
+    /// In the words of a table; `light` is the share of the light by order.
+    pub fn parts(&self, light: &[f64]) -> Vec<MethodPart> {
+        let words = |reasons: &[Reason]| {
+            let words: Vec<String> = reasons.iter().map(ToString::to_string).collect();
+            words.join("; ")
+        };
+        let formula = |range: &FormulaRange| FormulaPart {
+            formula: range.formula.words().into(),
+            theta_deg: range.theta.map(|theta| (1e3 * theta.to_degrees()).round() / 1e3),
+        };
+        let part = |entry: &Assigned| MethodPart {
+            order: Some(entry.order),
+            method: entry.method.words().into(),
+            reason: words(&entry.reasons),
+            expected_error: Some(entry.expected_error),
+            share_of_light: Some(light.get(entry.order as usize).copied().unwrap_or(0.0)),
+            formulas: entry.formulas.iter().map(formula).collect(),
+        };
+        self.entries.iter().map(part).collect()
+    }
+}
+
+impl Judge {
+    fn first(&self, order: u32) -> Assigned {
+        let limit = self.by.partial_waves_below;
+        if order == 0 || !self.deformed || self.size_parameter >= limit {
+            return self.planes(order, Vec::new());
+        }
+        let expected_error = self.by.error_of_partial_waves / self.size_parameter;
+        let reasons = vec![Reason::Small(limit)];
+        assigned(order, Method::PartialWaves, reasons, expected_error)
+    }
+
+    fn planes(&self, order: u32, mut reasons: Vec<Reason>) -> Assigned {
+        reasons.push(match order {
+            0 => Reason::Reflection,
+            _ if self.rotational => Reason::OnePlane,
+            _ => Reason::Ordered(self.disorder_of(order)),
+        });
+        let by_order = self.by.error_of_planes;
+        let next_terms = by_order[(order as usize).min(by_order.len() - 1)];
+        let expected_error = (next_terms * self.size_parameter.powf(-2.0 / 3.0))
+            .hypot(self.by.error_of_knots * self.tolerance);
+        assigned(order, Method::Planes, reasons, expected_error)
+    }
+
+    fn after_planes(&self, mut entry: Assigned, outcome: &PlanesOutcome) -> Assigned {
+        if let Some((spacing, formulas)) = &outcome.found {
+            entry.reasons.push(Reason::Traced(*spacing));
+            entry.formulas.clone_from(formulas);
+            return entry;
+        }
+        let (order, limit) = (entry.order, self.by.hopeless_disorder);
+        let disorder = self.disorder_of(order);
+        let hopeless = self.by.is_hopeless(order, disorder);
+        let reason = if hopeless { Reason::Disordered(disorder, limit) } else { Reason::Unmatched };
+        self.without_planes(&entry, reason)
+    }
+
+    fn after_check(&self, mut entry: Assigned, difference: f64) -> Assigned {
+        let limit = self.by.gross_difference;
+        if difference > limit {
+            return self.without_planes(&entry, Reason::Differs(difference, limit));
+        }
+        entry.reasons.push(Reason::Agrees(difference));
+        entry
+    }
+
+    /// Beams, or patches for particles so small, or tolerances so coarse, that those do better. Order 0
+    /// stays with patches: its rays are strongest where launch points end, at the rim, which beams would
+    /// show as an edge that shines.
+    fn without_planes(&self, entry: &Assigned, why: Reason) -> Assigned {
+        let order = entry.order;
+        let lost = entry.reasons.iter().filter(|reason| **reason == Reason::RadialLinesLost);
+        let mut reasons: Vec<Reason> = lost.copied().chain([why]).collect();
+        let (size, tolerance) = (self.by.beams_from, self.by.beams_tolerance);
+        if order == 0 {
+            reasons.push(Reason::Reflection);
+            return self.patches(order, reasons);
+        }
+        if !self.has_beams() {
+            reasons.push(Reason::CoarseEnough(size, tolerance));
+            return self.patches(order, reasons);
+        }
+        reasons.push(Reason::Fine(size, tolerance));
+        assigned(order, Method::Beams, reasons, self.by.error_of_beams * f64::from(order))
+    }
+
+    fn patches(&self, order: u32, reasons: Vec<Reason>) -> Assigned {
+        let reflected = self.by.error_of_reflection_by_patches;
+        let expected_error = if order == 0 { reflected } else { self.by.error_of_patches };
+        assigned(order, Method::Patches, reasons, expected_error)
+    }
+
+    fn has_beams(&self) -> bool {
+        self.size_parameter >= self.by.beams_from && self.tolerance <= self.by.beams_tolerance
+    }
+
+    /// Why no order is compared with beams, if none is.
+    fn skips_check(&self) -> Option<String> {
+        let [_, last] = self.by.cross_checked_orders;
+        let (size, disorder) = (self.by.cross_checked_size, self.by.cross_checked_disorder);
+        let why = if self.rotational || self.disorder_of(last) <= disorder {
+            format!("rays up to order {last} stray no farther than {disorder} from a sphere's")
+        } else if self.size_parameter < size {
+            format!("the size parameter is below {size}")
+        } else if !self.has_beams() {
+            format!("the tolerance is above {}", self.by.beams_tolerance)
+        } else {
+            return None;
+        };
+        Some(format!("a cross-check by Gaussian beams: {why}"))
+    }
+
+    fn disorder_of(&self, order: u32) -> f64 {
+        f64::from(order) * self.disorder
+    }
+}
+
+fn assigned(order: u32, method: Method, reasons: Vec<Reason>, expected_error: f64) -> Assigned {
+    Assigned { order, method, reasons, expected_error, formulas: Vec::new() }
+}
+
+/// How far rays of an order stray from those of a sphere: order times deformation of the outline.
+pub(crate) fn caustic_disorder(tracer: &Tracer, order: u32) -> f64 {
+    let silhouette = tracer.shape().silhouette();
+    let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
+    let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
+    f64::from(order) * (high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use num_complex::Complex64;
+
+    const ORDERS: [u32; 4] = [0, 1, 2, 5];
+
+    fn spheroid(ratio: f64, size_parameter: f64, tolerance: f64, by: &Thresholds) -> Assignment {
+        let shape = Shape::spheroid(ratio, 0.0).unwrap();
+        let tracer = Tracer::new(&shape, Complex64::new(1.333, 0.0), size_parameter, 5);
+        Assignment::new(&tracer, &ORDERS, size_parameter, tolerance, by)
+    }
+
+    fn lost(orders: &[u32]) -> Vec<PlanesOutcome> {
+        orders.iter().map(|&order| PlanesOutcome { order, found: None }).collect()
+    }
+
+    /// Whatever happens, each order has one method.
+    #[test]
+    fn no_order_is_lost() {
+        for x in [100.0, 599.0, 600.0, 5000.0] {
+            let first = spheroid(0.9, x, 0.01, &Thresholds::MEASURED);
+            let second = first.clone().after(Outcome::RadialLines(&[2]));
+            let third = second.clone().after(Outcome::Planes(&lost(&[0, 2, 5])));
+            for found in [first, second, third] {
+                let orders: Vec<u32> = found.entries().iter().map(|entry| entry.order).collect();
+                assert_eq!(orders, ORDERS, "x = {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn outcomes_hand_on_what_was_lost() {
+        let by = &Thresholds::MEASURED;
+        let found = spheroid(0.9, 200.0, 0.01, by).after(Outcome::RadialLines(&[1]));
+        assert_eq!(found.orders_of(Method::Planes), [0, 1]);
+        let found = found.after(Outcome::Planes(&lost(&[0, 1])));
+        assert_eq!(found.orders_of(Method::Patches), [0, 1]);
+        assert_eq!([0, 1, 2].map(|order| found.error_of(order)), [0.07, 0.3, 2.0 / 200.0]);
+        let large = spheroid(0.9, 2000.0, 0.01, by).after(Outcome::Planes(&lost(&[0, 5])));
+        assert_eq!(large.orders_of(Method::Patches), [0]);
+        assert_eq!(large.orders_of(Method::Beams), [5]);
+        let coarse = spheroid(0.9, 2000.0, 0.1, by).after(Outcome::Planes(&lost(&[5])));
+        assert_eq!(coarse.orders_of(Method::Patches), [5]);
+        assert!(coarse.entries()[3].reasons.contains(&Reason::CoarseEnough(1000.0, 0.03)));
+    }
+
+    /// The comparison's outcome is a value; what follows from it is decided here.
+    #[test]
+    fn gross_differences_go_to_beams() {
+        let found = spheroid(0.9, 10_000.0, 0.01, &Thresholds::MEASURED);
+        assert_eq!(found.cross_checked(), [1, 2]);
+        let differences =
+            [Difference { order: 1, share: 0.1 }, Difference { order: 2, share: 0.7 }];
+        let after = found.after(Outcome::CrossCheck(&differences));
+        assert_eq!(after.orders_of(Method::Planes), [0, 1, 5]);
+        assert_eq!(after.orders_of(Method::Beams), [2]);
+        assert!(after.entries()[1].reasons.contains(&Reason::Agrees(0.1)));
+        let small = spheroid(0.9, 5000.0, 0.01, &Thresholds::MEASURED);
+        assert!(small.cross_checked().is_empty());
+        assert!(small.skipped()[0].contains("6000"), "{:?}", small.skipped());
+        let round = spheroid(0.999, 10_000.0, 0.01, &Thresholds::MEASURED);
+        assert!(round.cross_checked().is_empty());
+    }
+
+    /// Another threshold, another method and another reason.
+    #[test]
+    fn thresholds_decide() {
+        let by = Thresholds { partial_waves_below: 150.0, ..Thresholds::MEASURED };
+        assert!(spheroid(0.9, 200.0, 0.01, &by).orders_of(Method::PartialWaves).is_empty());
+        let both = [&Thresholds::MEASURED, &by].map(|by| spheroid(0.9, 200.0, 0.01, by).parts(&[]));
+        assert_ne!(both[0][1].reason, both[1][1].reason);
+        assert_eq!(both[0][0], both[1][0], "reflection is no matter of size");
+    }
+}

@@ -1,0 +1,174 @@
+//! Every number on which the choice of a method, or of a formula within one, rests: thresholds on order,
+//! size parameter, deformation, index contrast and tolerance, and the errors that methods are expected to
+//! have. Each stands here and nowhere else, with what it was measured by.
+//!
+//! Numbers of resolution (knots per period, rays per line) belong to their kernels; they decide how finely
+//! a method works, not which.
+//!
+//! ```
+//! use gonio::farfield::assignment::Thresholds;
+//! let by = Thresholds { partial_waves_below: 150.0, ..Thresholds::MEASURED };
+//! assert_ne!(by, Thresholds::default());
+//! ```
+
+/// The table of thresholds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// Size parameters for which rays are accepted: below there are no rays, above phases of `f64` lose
+    /// their digits.
+    pub ray_sizes: [f64; 2],
+    /// Least phase shift `2x|n - 1|` of the central ray for which rays are accepted. Measured against
+    /// Lorenz–Mie for n = 0.97, 1.002, 1.02 and 1.1: extinction is 87 % off at 2, 33 % at 3, 13 % at 4 and
+    /// 3 to 5 % from 5 to 10, at any index.
+    pub least_phase_shift: f64,
+    /// Phase shift below which a warning goes with rays: extinction errs by up to 5 %, and directions
+    /// beside the forward peak by much more (the stated error tells).
+    pub doubtful_phase_shift: f64,
+    /// Beyond this `k/n` the wave inside is too inhomogeneous for real rays: measured against Lorenz–Mie.
+    pub largest_k_over_n: f64,
+
+    /// Highest order that `orders = "auto"` goes to, and the least last order that it takes.
+    pub highest_order: u32,
+    /// The least last order that `"auto"` takes.
+    pub least_last_order: u32,
+    /// Share of the light that orders left out may hold, per tolerance. Alexander's band holds about 1 %
+    /// of the light per steradian that the bow beside it does, so that orders must be kept down to far
+    /// less than the tolerance itself; measured against exact sums of Debye terms (1.1 % error up to p = 7
+    /// at 120–150° for a tolerance of 1 %).
+    pub left_out_per_tolerance: f64,
+
+    /// Size parameter below which transmitted orders of deformed particles are sums over partial waves:
+    /// from here on planes are quicker, and as good (errors of both meet at 600).
+    pub partial_waves_below: f64,
+    /// The first order whose rays cross the axis again and make their bow near the rim: its planes have
+    /// wider gaps about the axis, steps closer by half, and waves of the rim; partial waves of it leave
+    /// out the steep rays at the middle of the shadow, which hold next to nothing and stray far.
+    pub first_high_order: u32,
+    /// Caustic disorder from which on planes of such orders no longer match across the axis, unless an
+    /// integral stands for the rays near the rim.
+    pub hopeless_disorder: f64,
+    /// How far planes may differ from what their neighbours make of them (radians of phase, or share of
+    /// the wave) to be interpolated over azimuth; interpolation between them has half the step and more
+    /// neighbours, and errs by a small part of that.
+    pub roughest: f64,
+    /// The last order for which that is looked at: higher ones are weak, and their waves have many knots.
+    pub last_smoothed_order: u32,
+    /// The first order whose plain segments have fewer knots: weaker than those before.
+    pub first_sparse_order: u32,
+
+    /// Orders that a near-grazing integral serves from on, where nothing depends on azimuth. On other
+    /// particles from [`Thresholds::first_high_order`] on: there the secondary bow's wave changes too fast
+    /// with azimuth to be interpolated, its penumbra from continued polynomials is not reciprocal, and two
+    /// rays serve nearly as well.
+    pub first_near_grazing_order: u32,
+    /// Index above which a bow is far enough from the forward direction for that integral.
+    pub near_grazing_index: f64,
+    /// The order whose fold may come near total reflection inside: order 2 meets it far from its bow, and
+    /// the bows of higher ones are made too near the rim.
+    pub near_critical_order: u32,
+
+    /// Orders worth a cross-check by beams: higher ones are weak, and order 0 has its own wave at the edge.
+    pub cross_checked_orders: [u32; 2],
+    /// Caustic disorder over which it is made: below, planes were never found wrong.
+    pub cross_checked_disorder: f64,
+    /// Size parameter from which on it is made: below, beams are too coarse to tell.
+    pub cross_checked_size: f64,
+    /// Share of the amplitude in a band by which planes and beams may differ: beams alone err by up to
+    /// half of that in single bands near caustics.
+    pub gross_difference: f64,
+    /// Share of an order's mean power below which a band does not count in the cross-check.
+    pub faint_band: f64,
+
+    /// Size parameter from which on orders without planes are sums of beams, whose error falls like
+    /// `1/√x`, and the tolerance up to which those are worth their time: ten times that of patches where
+    /// few directions are asked for.
+    pub beams_from: f64,
+    /// The tolerance of the sentence above.
+    pub beams_tolerance: f64,
+
+    /// Size parameter of the largest sphere that a method is measured on; no error of rays grows with the
+    /// size.
+    pub largest_checked_sphere: f64,
+
+    /// Share of its amplitude by which a wave may be off, root mean square from 10° to 170°, measured
+    /// against Debye terms of spheres (n = 1.333 and 1.5, x = 300 to 10 000). Of scattering planes by
+    /// order (the last: and higher), in units of `x^{-2/3}`, the size of the next term of uniform formulas;
+    /// order 2 has its bow where few wave zones lie between it and the rim.
+    pub error_of_planes: [f64; 4],
+    /// What the density of their knots adds, per tolerance.
+    pub error_of_knots: f64,
+    /// Of sums over partial waves: in units of `1/x`.
+    pub error_of_partial_waves: f64,
+    /// Of sums of beams: times the order.
+    pub error_of_beams: f64,
+    /// Of patches without bows (reflection), and with.
+    pub error_of_reflection_by_patches: f64,
+    /// The same with bows.
+    pub error_of_patches: f64,
+}
+
+impl Thresholds {
+    /// As measured.
+    pub const MEASURED: Self = Self {
+        ray_sizes: [1.0, 1e9],
+        least_phase_shift: 5.0,
+        doubtful_phase_shift: 20.0,
+        largest_k_over_n: 0.03,
+        highest_order: 24,
+        least_last_order: 3,
+        left_out_per_tolerance: 0.035,
+        partial_waves_below: 600.0,
+        first_high_order: 4,
+        hopeless_disorder: 0.068,
+        roughest: 0.2,
+        last_smoothed_order: 3,
+        first_sparse_order: 3,
+        first_near_grazing_order: 2,
+        near_grazing_index: 1.05,
+        near_critical_order: 3,
+        cross_checked_orders: [1, 3],
+        cross_checked_disorder: 0.06,
+        cross_checked_size: 6000.0,
+        gross_difference: 0.6,
+        faint_band: 0.05,
+        beams_from: 1000.0,
+        beams_tolerance: 0.03,
+        largest_checked_sphere: 20_000.0,
+        error_of_planes: [0.25, 1.25, 8.0, 1.25],
+        error_of_knots: 0.5,
+        error_of_partial_waves: 2.0,
+        error_of_beams: 0.02,
+        error_of_reflection_by_patches: 0.07,
+        error_of_patches: 0.3,
+    };
+}
+
+impl Thresholds {
+    /// Whether an order's rays cross the axis again and make their bow near the rim.
+    pub fn is_high(&self, order: u32) -> bool {
+        order >= self.first_high_order
+    }
+
+    /// Whether the integral near the rim may serve an order.
+    pub fn near_grazing_serves(&self, index: f64, order: u32, rotational: bool) -> bool {
+        let from_here =
+            if rotational { order >= self.first_near_grazing_order } else { self.is_high(order) };
+        from_here && index > self.near_grazing_index
+    }
+
+    /// Whether an order of a particle may need an integral where its rays near total reflection.
+    pub fn near_critical_serves(&self, order: u32, rotational: bool) -> bool {
+        order == self.near_critical_order && !rotational
+    }
+
+    /// Whether planes of an order match across the axis without an integral near the rim.
+    pub fn is_hopeless(&self, order: u32, caustic_disorder: f64) -> bool {
+        self.is_high(order) && caustic_disorder > self.hopeless_disorder
+    }
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self::MEASURED
+    }
+}

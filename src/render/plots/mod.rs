@@ -1,0 +1,8 @@
+//! Plots: the preview of a table, diagrams of colours, their axes and letters.
+
+pub mod color_diagram;
+mod error_strip;
+pub mod font;
+pub mod heat_map;
+pub mod preview;
+mod ticks;
