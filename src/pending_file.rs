@@ -4,6 +4,21 @@
 //! renamed. Whatever happens before the rename (an error, Ctrl-C, a killed process, a full disk),
 //! nothing lies under the final name. All pending files of the process are registered, so that a
 //! handler of signals can remove them.
+//!
+//! ```
+//! use gonio::pending_file::{PendingFile, write_whole};
+//!
+//! let folder = std::env::temp_dir();
+//! let path = folder.join(format!("pending-{}.txt", std::process::id()));
+//! let pending = PendingFile::create(&path)?;
+//! std::fs::write(pending.path(), "half of it")?;
+//! drop(pending);
+//! assert!(!path.exists());
+//! write_whole(&path, b"all of it")?;
+//! assert_eq!(std::fs::read(&path)?, b"all of it");
+//! std::fs::remove_file(&path)?;
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use std::ffi::OsString;
 use std::fs::{self, File};

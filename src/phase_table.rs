@@ -1,5 +1,18 @@
 //! `PhaseTable`: the narrow waist. Everything that computes scattering produces one, wavelength
 //! slab by wavelength slab; everything else (HDF5, pictures, reports, exports) reads nothing but it.
+//!
+//! ```
+//! use gonio::phase_table::Axes;
+//!
+//! let degrees = |values: &[f64]| values.iter().map(|v| v.to_radians()).collect::<Vec<_>>();
+//! let axes = Axes {
+//!     wavelength: vec![550e-9],
+//!     theta: degrees(&[0.0, 45.0, 90.0, 135.0, 180.0]),
+//!     phi: degrees(&[0.0, 120.0, 240.0]),
+//! };
+//! // the cells of the samples fill the sphere
+//! assert!((axes.solid_angle().sum() - 4.0 * std::f64::consts::PI).abs() < 1e-12);
+//! ```
 
 mod averaging;
 mod bodies;
@@ -77,8 +90,11 @@ pub struct EnergyBudget {
 /// All that does not change from slab to slab.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableHeader {
+    /// Where it is tabulated.
     pub axes: Axes,
+    /// What is tabulated.
     pub quantity: Quantity,
+    /// How the forward peak is in it.
     pub forward_peak: ForwardPeak,
     /// The scattering does not depend on azimuth; `axes.phi` has one value.
     pub rotational_symmetry: bool,
@@ -116,6 +132,7 @@ pub struct Slab {
     pub caustic_order: Option<Array2<u8>>,
     /// Cross-sections, m².
     pub scattering_cross_section: f64,
+    /// Power taken from the light per irradiance, m².
     pub extinction_cross_section: f64,
     /// What is absorbed, counted apart from the two others, m².
     pub absorption_cross_section: f64,
@@ -160,6 +177,7 @@ pub fn error_theta(band: usize) -> f64 {
 /// A whole table in memory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PhaseTable {
+    /// All that the slabs share.
     pub header: TableHeader,
     /// One per wavelength, in the order of `header.axes.wavelength`.
     pub slabs: Vec<Slab>,

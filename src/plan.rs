@@ -2,6 +2,17 @@
 //!
 //! Decided once, before anything is traced: the method, symmetries, orders, the wavefront's grid.
 //! Every decision leaves a sentence, so that `gonio plan` can print them.
+//!
+//! ```
+//! use gonio::plan::{Engine, Plan};
+//! use gonio::scene::{Scene, SceneFile};
+//!
+//! let plan = Plan::new(&Scene::built_in(&SceneFile::default())?)?;
+//! assert_eq!(plan.engine, Engine::Meridians);
+//! assert!(plan.orders.contains(&2), "the primary bow");
+//! assert!(plan.reasons.iter().any(|reason| reason.contains("mirror images")));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod acceptance;
 mod cost;
@@ -27,7 +38,9 @@ pub enum Engine {
     Meridians,
     /// Patches on the collecting sphere (Sadeghi et al. 2012).
     Patches,
+    /// The exact series.
     LorenzMie,
+    /// Single orders of the exact series.
     Debye,
 }
 
@@ -43,16 +56,20 @@ pub enum Symmetry {
 /// What will be computed.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// Who computes.
     pub engine: Engine,
+    /// What scatters.
     pub shape: Shape,
     /// Radius of equal volume, metres.
     pub radius: f64,
+    /// How scattering depends on azimuth.
     pub symmetry: Symmetry,
     /// Orders (chords) summed.
     pub orders: Vec<u32>,
     /// Whether these are all that matter, so that the whole of the scattering is their truth; else the
     /// orders alone are.
     pub complete: bool,
+    /// Whether forward diffraction is summed too.
     pub forward_diffraction: bool,
     /// Relative error asked for.
     pub tolerance: f64,
@@ -63,6 +80,7 @@ pub struct Plan {
     pub checked: bool,
     /// Grid of the patches: rings from centre to rim, and spokes.
     pub rings: usize,
+    /// Rays about the axis.
     pub spokes: usize,
     /// What was decided and why, one sentence each.
     pub reasons: Vec<String>,
@@ -183,14 +201,15 @@ impl Plan {
 /// # Errors
 /// A radius or axis ratio outside the model.
 pub fn shape(particle: &Particle, sun_elevation: f64) -> Result<(Shape, f64), ShapeError> {
-    Ok(match *particle {
-        Particle::Sphere { radius } => (Shape::sphere(), radius),
+    Ok(match particle {
+        Particle::Sphere { radius } => (Shape::sphere(), *radius),
         Particle::Spheroid { radius, axis_ratio } => {
-            (Shape::spheroid(axis_ratio, sun_elevation)?, radius)
+            (Shape::spheroid(*axis_ratio, sun_elevation)?, *radius)
         }
         Particle::Raindrop { radius, model } => {
-            (Shape::raindrop(radius, model, sun_elevation)?, radius)
+            (Shape::raindrop(*radius, *model, sun_elevation)?, *radius)
         }
+        Particle::Own { radius, body } => (Shape::own(body.clone(), sun_elevation), *radius),
     })
 }
 

@@ -3,6 +3,29 @@
 //! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (meridians, beams, or
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
+//!
+//! ```
+//! use gonio::scene::{Scene, SceneFile, SceneText};
+//! use gonio::simulate;
+//!
+//! let text = r#"
+//! [particle]
+//! shape = "sphere"
+//! radius_um = 5
+//! [light]
+//! wavelengths_nm = [550]
+//! [table]
+//! theta_deg = { from = 0, to = 180, count = 91 }
+//! azimuth_deg = [0]
+//! "#;
+//! let text = SceneText::parse("example", text.into())?;
+//! let scene = Scene::from_text(text, &SceneFile::default())?;
+//! let table = simulate::table(&scene)?;
+//! let slab = &table.slabs[0];
+//! assert!((slab.sum(&table.header.axes) - 1.0).abs() < 1e-6, "a phase function integrates to 1");
+//! assert!(slab.asymmetry > 0.8, "a drop scatters forwards");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
@@ -29,6 +52,7 @@ use std::f64::consts::{PI, TAU};
 
 /// What can go wrong on the main path.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum SimulateError {
     #[error(transparent)]
     Plan(#[from] PlanError),
@@ -312,7 +336,9 @@ pub fn worth_of_rays(
 /// Cross sections in units of the squared radius.
 #[derive(Clone, Copy, Debug)]
 pub struct CrossSections {
+    /// What the light loses.
     pub extinction: f64,
+    /// What turns into heat.
     pub absorption: f64,
 }
 
@@ -333,6 +359,7 @@ impl CrossSections {
         Self { extinction, absorption: area * absorbed + beyond }
     }
 
+    /// Extinction less absorption.
     pub fn scattering(&self) -> f64 {
         self.extinction - self.absorption
     }
@@ -444,10 +471,11 @@ fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> TableHeader {
             Engine::Debye => "debye",
         }
         .into(),
-        shape: match scene.particle {
+        shape: match &scene.particle {
             Particle::Sphere { .. } => "sphere",
             Particle::Spheroid { .. } => "spheroid",
             Particle::Raindrop { .. } => "raindrop",
+            Particle::Own { body, .. } => body.name(),
         }
         .into(),
         radius: plan.radius,

@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 
 /// Floor, rooms on it. Top floor first. The program (`main.rs`, `cli/`) is the roof: it sees the
 /// library by its name `gonio`, the library never sees it.
-const FLOORS: [(u32, &[&str]); 12] = [
-    (11, &["main", "cli"]),
+const FLOORS: [(u32, &[&str]); 13] = [
+    (12, &["main", "cli"]),
+    // The pages for people, built for the documentation and tests alone.
+    (11, &["docs"]),
     (10, &["compare"]),
     // A picture's drops are sampled as those of a Lee diagram.
     (9, &["render"]),

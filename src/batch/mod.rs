@@ -6,6 +6,21 @@
 //! id is a hash of the physics and of the file format, so that equal work has equal names. Shards
 //! are complete files or none, which makes resuming the same as running again; [`merge`] puts them
 //! into one file in the order of the plan, whatever the order in which they were computed.
+//!
+//! ```
+//! use gonio::batch::{BatchPlan, Sweep};
+//!
+//! let sweep = "
+//! [particle]
+//! shape = \"sphere\"
+//! radius_um = [5, 10, 20]
+//! [light]
+//! sun_elevation_deg = [0, 30]
+//! ";
+//! let plan = BatchPlan::from_sweep(&Sweep::parse(sweep)?)?;
+//! assert_eq!(plan.tables.len(), 6);
+//! # Ok::<(), gonio::batch::BatchError>(())
+//! ```
 
 mod merge;
 mod plan;
@@ -28,6 +43,7 @@ use std::path::PathBuf;
 
 /// What went wrong with a batch.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum BatchError {
     #[error("{}: {message}", path.display())]
     Plan { path: PathBuf, message: String },

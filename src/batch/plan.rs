@@ -41,6 +41,7 @@ pub struct PlannedTable {
 /// A plan in memory, or those of its tables that were asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BatchPlan {
+    /// The tables, in the order of the plan.
     pub tables: Vec<PlannedTable>,
     /// Hash of the whole plan.
     pub digest: String,
@@ -213,12 +214,15 @@ impl BatchPlan {
 /// Which tables of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Selection<'a> {
+    /// Every table.
     All,
     /// The table of this id.
     Id(&'a str),
     /// Every `parts`-th table, beginning with `number` (from 0).
     Slice {
+        /// Which of the parts, from 0.
         number: usize,
+        /// Of how many.
         parts: usize,
     },
 }

@@ -20,7 +20,12 @@ pub enum Event {
     /// A table is there.
     Done(Shard),
     /// A table failed; the others go on.
-    Failed { id: String, error: BatchError },
+    Failed {
+        /// Digest of the physics: the table's name in the plan.
+        id: String,
+        /// Why.
+        error: BatchError,
+    },
 }
 
 /// Compute what is missing of `tables` into `folder`; `report` hears of each table as it ends.

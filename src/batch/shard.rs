@@ -16,6 +16,7 @@ use std::time::Instant;
 pub enum ShardStatus {
     /// Whole, and of this id.
     Done,
+    /// There is no such file.
     Missing,
     /// There, but not whole or not of this id: it will be computed again.
     Invalid,
@@ -25,17 +26,24 @@ pub enum ShardStatus {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
+    /// Computed now.
     Computed,
+    /// A valid file was there.
     Skipped,
 }
 
 /// The result of one shard.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Shard {
+    /// Digest of the physics: the table's name in the plan.
     pub id: String,
+    /// What was done.
     pub status: Outcome,
+    /// Time that it took.
     pub seconds: f64,
+    /// Size of the file.
     pub bytes: u64,
+    /// Where it lies.
     pub file: PathBuf,
 }
 

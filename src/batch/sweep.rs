@@ -26,6 +26,7 @@ impl Axis {
         self.values.first().map_or(0, Vec::len)
     }
 
+    /// True where no value is swept.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -35,6 +36,7 @@ impl Axis {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     fixed: Table,
+    /// The swept values, in the order of the merged table's dimensions.
     pub axes: Vec<Axis>,
 }
 

@@ -27,15 +27,24 @@ pub enum Illuminant {
     /// CIE standard illuminant A: a tungsten lamp.
     A,
     /// CIE daylight of a correlated colour temperature in kelvin (4000 to 25000).
-    Daylight { temperature: f64 },
+    Daylight {
+        /// Kelvin.
+        temperature: f64,
+    },
     /// A black body, kelvin.
-    BlackBody { temperature: f64 },
+    BlackBody {
+        /// Kelvin.
+        temperature: f64,
+    },
     /// The sun above the air (ASTM G173, Gueymard 2004).
     Sun,
     /// The sun's direct light on the ground at air mass 1.5 (ASTM G173).
     SunGround,
     /// The sun above the air, dimmed by Rayleigh scattering in clean air; elevation in radians.
-    SunThroughAir { elevation: f64 },
+    SunThroughAir {
+        /// Above the horizon, radians.
+        elevation: f64,
+    },
 }
 
 impl Illuminant {

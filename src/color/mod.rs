@@ -16,6 +16,17 @@
 //! - **Exposure** is a factor on XYZ before that rule; callers state it.
 //!
 //! Data and their sources: `data/color/`.
+//!
+//! ```
+//! use gonio::color::{Illuminant, Observer, spectrum_to_xyz, to_srgb};
+//!
+//! // what scatters every wavelength alike is white in its own light
+//! let wavelengths = [400e-9, 450e-9, 500e-9, 550e-9, 600e-9, 650e-9, 700e-9];
+//! let xyz = spectrum_to_xyz(&wavelengths, &[1.0; 7], Illuminant::D65, Observer::Cie1931)?;
+//! assert!((xyz[1] - 1.0).abs() < 1e-12);
+//! assert_eq!(to_srgb(xyz, 1.0), [255, 255, 255]);
+//! # Ok::<(), gonio::color::ColorError>(())
+//! ```
 
 mod difference;
 mod illuminant;
@@ -39,6 +50,7 @@ use crate::fault::{Blame, Fault};
 
 /// What is wrong with a request for a colour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ColorError {
     #[error(
         "illuminant = \"{0}\": expected D65, A, E, a daylight such as D50, a black body such as \

@@ -15,6 +15,7 @@ use std::time::Instant;
 
 /// Why a case cannot be computed.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum CaseError {
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -26,9 +27,9 @@ pub enum CaseError {
         "{name}: a case is computed by rays too, which see one sphere in one wavelength from a \
          point-like sun; take the key out, or compare two finished tables with --table and --reference"
     )]
-    NotForRays { name: String, source: SceneError },
+    NotForRays { name: String, source: Box<SceneError> },
     #[error("{name}")]
-    Run { name: String, source: SimulateError },
+    Run { name: String, source: Box<SimulateError> },
 }
 
 impl Blame for CaseError {
@@ -120,7 +121,10 @@ impl SphereRuns {
                     method(flags, Method::Rays);
                     change(flags);
                 })
-                .map_err(|source| CaseError::NotForRays { name: name.to_string(), source })
+                .map_err(|source| CaseError::NotForRays {
+                    name: name.to_string(),
+                    source: source.into(),
+                })
         };
         let list = |orders: &[u32]| Some(Orders::List(orders.to_vec()));
         let whole = rays(&|_| ())?;
@@ -171,7 +175,7 @@ impl SphereRuns {
         let entry = |name: String, scene: &Scene| {
             let start = Instant::now();
             let table = simulate::table(scene)
-                .map_err(|source| CaseError::Run { name: name.clone(), source })?;
+                .map_err(|source| CaseError::Run { name: name.clone(), source: source.into() })?;
             done();
             Ok::<_, CaseError>(Entry { name, table, seconds: Some(start.elapsed().as_secs_f64()) })
         };

@@ -8,13 +8,19 @@ use serde::Serialize;
 /// Relative error in a band of scattering angles, of unpolarised light unless said otherwise.
 #[derive(Clone, Debug, Serialize)]
 pub struct BandReport {
+    /// Where the band begins, degrees.
     pub from_deg: f64,
+    /// Where it ends, degrees.
     pub to_deg: f64,
+    /// `total`, `parallel` or `perpendicular`.
     pub polarisation: &'static str,
     /// Angles × wavelengths × azimuths.
     pub samples: usize,
+    /// Median of the relative error.
     pub median: f64,
+    /// Its 99th percentile.
     pub q99: f64,
+    /// Its maximum.
     pub max: f64,
     /// ‖difference‖ / ‖reference‖.
     pub l2: f64,

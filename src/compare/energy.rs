@@ -8,11 +8,15 @@ use std::f64::consts::PI;
 /// The energy budget at one wavelength.
 #[derive(Clone, Debug, Serialize)]
 pub struct EnergyReport {
+    /// Wavelength in vacuum.
     pub wavelength_nm: f64,
     /// Cross-sections over that of the sphere of equal volume.
     pub q_sca: f64,
+    /// Extinction over the shadow's area.
     pub q_ext: f64,
+    /// Absorption over the shadow's area.
     pub q_abs: f64,
+    /// Mean cosine of the scattering angle.
     pub asymmetry: f64,
     /// Rays: shares of the power that met the particle.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -15,7 +15,9 @@ pub struct Maximum {
     /// `primary`, `supernumerary 2 of the secondary`, …; empty between the bows and where ray optics
     /// knows none.
     pub name: String,
+    /// Where the reference has it, degrees.
     pub reference_deg: f64,
+    /// How much further the other table has it, degrees.
     pub shift_deg: f64,
 }
 
@@ -23,6 +25,7 @@ pub struct Maximum {
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Maxima {
     #[serde(rename = "maxima")]
+    /// Maxima that both have.
     pub pairs: Vec<Maximum>,
     /// Of the reference, without a partner in the test; degrees.
     #[serde(rename = "maxima_missing_deg")]

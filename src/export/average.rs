@@ -19,6 +19,7 @@ pub struct Curve {
     pub peak_share: f64,
     /// Cross-sections (m²) without the cut peak, which counts as unscattered.
     pub scattering_cross_section: f64,
+    /// The same for extinction, m².
     pub extinction_cross_section: f64,
     /// Mean cosine of what is left.
     pub asymmetry: f64,
@@ -29,6 +30,7 @@ pub struct Curve {
 pub struct Averaged {
     /// Radians, ascending.
     pub theta: Vec<f64>,
+    /// One per wavelength.
     pub curves: Vec<Curve>,
     /// Angle below which P keeps the value that it has there, radians (0: nothing is cut).
     pub cap: f64,

@@ -9,6 +9,30 @@
 //! libRadtran, sasktran2 and CSV take all of them. Mitsuba's `tabphase` and plugin, the OpenEXR map and the
 //! colour strip take unpolarised light, element 11 alone; the map and the strip and the full CSV keep the
 //! azimuth. [`notes`] are what a user is told beside: an error that was not met, what was averaged over.
+//!
+//! ```
+//! use gonio::export::{average::average, csv};
+//! use gonio::scene::{Scene, SceneFile, SceneText};
+//! use gonio::simulate;
+//!
+//! let text = r#"
+//! [particle]
+//! shape = "sphere"
+//! radius_um = 5
+//! [light]
+//! wavelengths_nm = [550]
+//! [table]
+//! theta_deg = { from = 0, to = 180, count = 91 }
+//! azimuth_deg = [0]
+//! "#;
+//! let text = SceneText::parse("example", text.into())?;
+//! let scene = Scene::from_text(text, &SceneFile::default())?;
+//! let table = simulate::table(&scene)?;
+//! let averaged = average(&table, 3f64.to_radians())?;
+//! let text = csv::averaged(&table, &averaged);
+//! assert!(text.contains("wavelength_nm,theta_deg,peak_share,p11_per_sr"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod atmosphere;
 pub mod average;
@@ -18,6 +42,7 @@ pub mod exr;
 pub mod mitsuba;
 pub mod notes;
 pub mod source;
+#[cfg(feature = "pictures")]
 pub mod strip;
 
 pub use atmosphere::{eradiate, libradtran, sasktran2, size_grid};
@@ -29,6 +54,7 @@ use std::path::PathBuf;
 
 /// What went wrong with an export.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ExportError {
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
@@ -36,6 +62,7 @@ pub enum ExportError {
     Sweep { path: PathBuf, why: String },
     #[error("colours: {0}")]
     Color(#[from] ColorError),
+    #[cfg(feature = "pictures")]
     #[error("picture: {0}")]
     Png(#[from] png::EncodingError),
     #[error(transparent)]
@@ -49,6 +76,7 @@ impl Blame for ExportError {
                 Fault::Input
             }
             ExportError::Table(error) => error.fault(),
+            #[cfg(feature = "pictures")]
             ExportError::Png(_) => Fault::Run,
         }
     }

@@ -6,12 +6,19 @@ use std::f64::consts::PI;
 /// Spherical coordinates about the light, and the frame that goes with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Direction {
+    /// Scattering angle, radians.
     pub theta: f64,
+    /// Azimuth, radians.
     pub phi: f64,
+    /// Unit vector in this direction.
     pub unit: Vec3<f64>,
+    /// Unit vector of growing θ.
     pub theta_hat: Vec3<f64>,
+    /// Unit vector of growing φ.
     pub phi_hat: Vec3<f64>,
+    /// Cosine of the azimuth.
     pub cos_phi: f64,
+    /// Sine of the azimuth.
     pub sin_phi: f64,
 }
 

@@ -9,6 +9,26 @@
 //! of Sadeghi et al. 2012, is [`patches`]: sheets of rays cut into triangles on the sphere of directions,
 //! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`mod@reference`]
 //! is a brute-force sum that needs no asymptotics; [`sphere_check`] says what the method is worth. [`FarField`] is what the rest of the house uses.
+//!
+//! ```
+//! use gonio::farfield::{FarField, FarFieldSettings};
+//! use gonio::shape::Shape;
+//! use gonio::trace::Tracer;
+//!
+//! let (shape, size_parameter) = (Shape::sphere(), 2000.0);
+//! let tracer = Tracer::new(&shape, 1.333.into(), size_parameter, 2);
+//! let settings = FarFieldSettings {
+//!     size_parameter,
+//!     orders: &[2],
+//!     tolerance: 0.01,
+//!     diffraction: false,
+//!     checked: false,
+//!     azimuths: &[0.0],
+//! };
+//! let field = FarField::meridians(&tracer, &settings);
+//! let at = |degrees: f64| field.scatter(&[(degrees.to_radians(), 0.0)], false)[0].s11();
+//! assert!(at(138.8) > 100.0 * at(136.0), "the primary bow and the dark band beside it");
+//! ```
 
 pub mod assignment;
 pub mod azimuth;

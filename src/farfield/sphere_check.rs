@@ -31,14 +31,19 @@ const SPOKES: usize = 96;
 /// A method on the sphere of equal volume.
 #[derive(Clone, Debug)]
 pub struct SphereCheck<'a> {
+    /// Index of the particle.
     pub index: Complex64,
+    /// Circumference of the sphere over the wavelength.
     pub size_parameter: f64,
+    /// Orders (chords) that the method sums.
     pub orders: &'a [u32],
     /// Whether these are all that matter: then the truth is Lorenz–Mie.
     pub complete: bool,
     /// Whether forward diffraction is part of it.
     pub diffraction: bool,
+    /// Relative error asked for.
     pub tolerance: f64,
+    /// What is judged.
     pub method: CheckedMethod,
     /// By which methods are chosen, and how large the sphere may be.
     pub thresholds: Thresholds,
@@ -48,9 +53,19 @@ pub struct SphereCheck<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CheckedMethod {
     /// Meridians; small deformed particles have partial waves in their place.
-    Meridians { deformed: bool },
+    Meridians {
+        /// Whether the particle is no body of revolution about the light.
+        deformed: bool,
+    },
     /// Patches; without interference means over bands are compared.
-    Patches { rings: usize, interference: bool, filter: Option<f64> },
+    Patches {
+        /// Rings of the grid.
+        rings: usize,
+        /// Whether amplitudes add, or intensities.
+        interference: bool,
+        /// Standard deviation of the Gaussian filter, radians.
+        filter: Option<f64>,
+    },
 }
 
 /// Scattering angles in the bands, ascending; steps of an irrational ratio, so that no sample keeps to

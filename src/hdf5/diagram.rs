@@ -9,18 +9,27 @@ use std::path::Path;
 
 /// One axis.
 pub struct DiagramAxis<'a> {
+    /// Name of the dimension.
     pub name: &'a str,
+    /// In the words of UDUNITS.
     pub units: &'a str,
+    /// For people.
     pub long_name: &'a str,
+    /// Coordinates.
     pub values: &'a [f64],
 }
 
 /// Values over some of the axes (by index), last axis fastest.
 pub struct DiagramValues<'a> {
+    /// Name of the variable.
     pub name: &'a str,
+    /// In the words of UDUNITS.
     pub units: &'a str,
+    /// For people.
     pub long_name: &'a str,
+    /// Which axes it runs along, by their place in the list.
     pub axes: &'a [usize],
+    /// Values, the last axis fastest.
     pub values: &'a [f32],
 }
 

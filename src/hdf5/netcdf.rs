@@ -8,26 +8,37 @@ use std::path::Path;
 /// Values of a variable, last dimension fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NetcdfValues {
+    /// Double precision.
     F64(Vec<f64>),
+    /// Single precision.
     F32(Vec<f32>),
+    /// Integers.
     I32(Vec<i32>),
+    /// Strings.
     Texts(Vec<String>),
 }
 
 /// A variable: its name, dimensions by name, values and text attributes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetcdfVariable {
+    /// Its name.
     pub name: String,
+    /// Names of its dimensions, the last fastest.
     pub dimensions: Vec<String>,
+    /// Its values.
     pub values: NetcdfValues,
+    /// Names and texts.
     pub attributes: Vec<(String, String)>,
 }
 
 /// A whole file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NetcdfFile {
+    /// Names and lengths.
     pub dimensions: Vec<(String, usize)>,
+    /// All that it holds.
     pub variables: Vec<NetcdfVariable>,
+    /// Names and texts, of the file.
     pub attributes: Vec<(String, String)>,
 }
 

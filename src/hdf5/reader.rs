@@ -51,6 +51,7 @@ impl TableReader {
         Ok(TableReader { file, header, records, has_caustic })
     }
 
+    /// What does not change from wavelength to wavelength.
     pub fn header(&self) -> &TableHeader {
         &self.header
     }

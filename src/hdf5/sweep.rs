@@ -17,7 +17,9 @@ use std::path::Path;
 /// Values along a swept dimension.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AxisValues {
+    /// Numbers, ascending or not.
     Numbers(Vec<f64>),
+    /// Words, such as names of media.
     Texts(Vec<String>),
 }
 
@@ -28,12 +30,14 @@ pub struct SweepCoordinate {
     pub name: String,
     /// Units after UDUNITS; empty for text.
     pub units: String,
+    /// One per table along the dimension.
     pub values: AxisValues,
 }
 
 /// A swept dimension: it bears the name of its first coordinate, paired values follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepAxis {
+    /// Further values along the same dimension.
     pub coordinates: Vec<SweepCoordinate>,
 }
 
@@ -46,6 +50,7 @@ impl SweepAxis {
         })
     }
 
+    /// True where the dimension has no value.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -261,6 +266,7 @@ impl SweepReader {
         Ok(SweepReader { file, header, axes, has_caustic })
     }
 
+    /// What all tables share.
     pub fn header(&self) -> &TableHeader {
         &self.header
     }
@@ -273,6 +279,7 @@ impl SweepReader {
         Ok(self.file.number("bit_round")?.map_or(0.0, |bits| 0.5f64.powf(bits)))
     }
 
+    /// The swept dimensions, in the order of the file.
     pub fn axes(&self) -> &[SweepAxis] {
         &self.axes
     }

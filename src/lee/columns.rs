@@ -6,7 +6,9 @@ use rayon::prelude::*;
 /// What stands in the columns.
 #[derive(Clone, Debug)]
 pub enum Bodies {
+    /// Spheres, by Lorenz–Mie.
     Spheres,
+    /// Falling raindrops, by rays.
     Raindrops(Raindrops),
 }
 

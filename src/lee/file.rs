@@ -7,8 +7,11 @@ use std::path::Path;
 /// What the numbers do not say.
 #[derive(Clone, Copy, Debug)]
 pub struct About<'a> {
+    /// The command line that made the diagram.
     pub command_line: &'a str,
+    /// Name of what shines.
     pub illuminant: &'a str,
+    /// Name of the observer.
     pub observer: &'a str,
 }
 

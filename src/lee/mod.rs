@@ -5,6 +5,26 @@
 //! XYZ. Interference between rays that took different ways through the drop leaves a ripple far
 //! finer than the disc and the eye; it must average out and not be sampled. [`Sampling`] says how
 //! many angles and wavelengths that takes, [`SunFilter`] averages.
+//!
+//! ```
+//! use gonio::color::{Illuminant, Observer};
+//! use gonio::lee::{Polarisation, Request, spheres};
+//! use gonio::medium::Medium;
+//!
+//! let diagram = spheres(&Request {
+//!     radii: vec![10e-6],
+//!     theta: (136..=144).map(|degrees| f64::from(degrees).to_radians()).collect(),
+//!     medium: Medium::Constant(1.333.into()),
+//!     sun_disc: true,
+//!     size_spread: 0.0,
+//!     illuminant: Illuminant::D65,
+//!     observer: Observer::Cie1931,
+//!     fineness: 1.0,
+//! })?;
+//! let seen = diagram.seen(Polarisation::Total);
+//! assert!(seen[0].iter().all(|xyz| xyz[1] > 0.0));
+//! # Ok::<(), gonio::lee::LeeError>(())
+//! ```
 
 mod about_axis;
 mod columns;
@@ -40,6 +60,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum LeeError {
     #[error(transparent)]
     Color(#[from] ColorError),
@@ -82,12 +103,15 @@ pub struct Request {
     pub radii: Vec<f64>,
     /// Scattering angles, radians, ascending.
     pub theta: Vec<f64>,
+    /// What the drops are of.
     pub medium: Medium,
     /// Average over the sun's disc.
     pub sun_disc: bool,
     /// Standard deviation of ln(radius) about each column's radius; 0 for drops of one size.
     pub size_spread: f64,
+    /// What shines on them.
     pub illuminant: Illuminant,
+    /// Whose eyes.
     pub observer: Observer,
     /// Factor on the numbers of angles and wavelengths; 1 is meant for ΔE below 1.
     pub fineness: f64,
@@ -98,7 +122,9 @@ pub struct Request {
 pub struct Drop {
     /// Radius of equal volume, and wavelength in vacuum, metres.
     pub radius: f64,
+    /// Wavelength in vacuum, metres.
     pub wavelength: f64,
+    /// Index of the drop.
     pub index: Complex64,
 }
 

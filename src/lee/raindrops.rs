@@ -26,7 +26,7 @@ const MIDDLE: f64 = 550e-9;
 /// Raindrops of any size under one sun, seen in one half-plane of azimuth.
 #[derive(Clone, Debug)]
 pub struct Raindrops {
-    scene: Scene,
+    scene: Box<Scene>,
     azimuth: f64,
 }
 
@@ -42,7 +42,7 @@ impl Raindrops {
         file.particle.medium = Some(medium);
         file.light.sun_elevation_deg = Some(sun_elevation_deg);
         file.light.wavelengths_nm = Some(Grid::List(vec![MIDDLE * 1e9]));
-        Ok(Self { scene: file.validate()?, azimuth })
+        Ok(Self { scene: Box::new(file.validate()?), azimuth })
     }
 
     /// Whether a drop (metres) is flattened at all, and not a sphere.
@@ -61,7 +61,7 @@ impl Raindrops {
             wavelengths: vec![wavelength],
             orders: Orders::List(orders.to_vec()),
             tolerance: if faint { FAINT_TOLERANCE } else { self.scene.tolerance },
-            ..self.scene.clone()
+            ..(*self.scene).clone()
         };
         let mut plan = Plan::new(&scene)?;
         // what one method gets wrong would show as a streak among hundreds of columns

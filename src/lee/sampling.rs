@@ -77,6 +77,7 @@ pub struct SamplingNeed {
     pub index: f64,
     /// Averaged over the sun's disc.
     pub sun_disc: bool,
+    /// How fast intensities change with size.
     pub beats: Beats,
     /// Standard deviation of ln(radius).
     pub size_spread: f64,
@@ -104,6 +105,7 @@ pub struct Sampling {
 /// Neighbouring wavelengths on one grid of angles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
+    /// Which samples it is the mean over.
     pub places: Range<usize>,
     /// Steps in scattering angle per full turn.
     pub per_turn: usize,

@@ -1,5 +1,12 @@
 //! Numbers as they are printed: a conversion of units leaves noise in the last digits, which does
 //! not belong into tables, names and hashes.
+//!
+//! ```
+//! use gonio::math::digits::{nm, to_digits};
+//!
+//! assert_eq!(nm(550e-9), 550.0);
+//! assert_eq!(to_digits(0.1 + 0.2, 12), 0.3);
+//! ```
 
 /// `value` rounded to so many significant decimal digits.
 pub fn to_digits(value: f64, digits: usize) -> f64 {

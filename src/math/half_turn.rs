@@ -6,9 +6,11 @@ use std::f64::consts::{PI, TAU};
 /// A known value and its share in the value wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Share {
+    /// Which value, at and above the place.
     pub index: usize,
     /// Whether the known value serves as its mirror image.
     pub mirrored: bool,
+    /// Weight of that value.
     pub weight: f64,
 }
 

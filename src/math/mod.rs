@@ -1,4 +1,11 @@
 //! Mathematics without physics: special functions, kernels, interpolation, quadrature.
+//!
+//! ```
+//! use gonio::math::gauss_legendre;
+//!
+//! let integral: f64 = gauss_legendre::nodes(20).iter().map(|(x, weight)| weight * x.exp()).sum();
+//! assert!((integral - (1f64.exp() - (-1f64).exp())).abs() < 1e-14);
+//! ```
 
 pub mod bytes;
 mod curves;
@@ -6,6 +13,7 @@ pub mod digits;
 pub mod fused;
 pub mod gauss_legendre;
 pub mod half_turn;
+pub mod jet;
 pub mod phase;
 pub mod scalar;
 mod special;

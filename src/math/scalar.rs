@@ -2,6 +2,17 @@
 //!
 //! On the dark side of a caustic the ray equations have complex solutions. All shapes here are
 //! analytic, so the same tracing code follows them when its scalar is complex.
+//!
+//! ```
+//! use gonio::math::scalar::Scalar;
+//! use num_complex::Complex64;
+//!
+//! fn hypotenuse<T: Scalar>(a: T, b: T) -> T {
+//!     (a * a + b * b).root()
+//! }
+//! assert_eq!(hypotenuse(3.0, 4.0), 5.0);
+//! assert_eq!(hypotenuse(Complex64::from(3.0), Complex64::from(4.0)).re, 5.0);
+//! ```
 
 use num_complex::Complex64;
 use std::fmt::Debug;
@@ -27,8 +38,12 @@ pub trait Scalar:
     const REAL: bool;
     /// A real number as this scalar.
     fn real(value: f64) -> Self;
+    /// A complex number as this scalar: its real part where this is the real field.
+    fn of_complex(value: Complex64) -> Self;
     /// Principal square root.
     fn root(self) -> Self;
+    /// Principal value of a real power; whole powers of real numbers are those of arithmetic.
+    fn power(self, exponent: f64) -> Self;
     /// Real part.
     fn re(self) -> f64;
     /// Size, for tolerances.
@@ -44,8 +59,14 @@ impl Scalar for f64 {
     fn real(value: f64) -> Self {
         value
     }
+    fn of_complex(value: Complex64) -> Self {
+        value.re
+    }
     fn root(self) -> Self {
         self.sqrt()
+    }
+    fn power(self, exponent: f64) -> Self {
+        self.powf(exponent)
     }
     fn re(self) -> f64 {
         self
@@ -66,8 +87,17 @@ impl Scalar for Complex64 {
     fn real(value: f64) -> Self {
         Complex64::new(value, 0.0)
     }
+    fn of_complex(value: Complex64) -> Self {
+        value
+    }
     fn root(self) -> Self {
         self.sqrt()
+    }
+    fn power(self, exponent: f64) -> Self {
+        match exponent as i32 {
+            whole if f64::from(whole) == exponent => self.powi(whole),
+            _ => self.powf(exponent),
+        }
     }
     fn re(self) -> f64 {
         self.re

@@ -1,5 +1,13 @@
 //! Three-vectors over a [`Scalar`]. The dot product is bilinear (no conjugation), which is what
 //! analytic continuation of ray equations needs. Real geometry elsewhere uses `glam`.
+//!
+//! ```
+//! use gonio::math::vec3::Vec3;
+//!
+//! let (x, y) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0));
+//! assert_eq!(x.cross(y).z, 1.0);
+//! assert_eq!((x + y * 2.0).dot(y), 2.0);
+//! ```
 
 use super::scalar::Scalar;
 use num_complex::Complex64;
@@ -8,8 +16,11 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// A vector `(x, y, z)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<T> {
+    /// First component.
     pub x: T,
+    /// Second component.
     pub y: T,
+    /// Third component.
     pub z: T,
 }
 
@@ -17,6 +28,7 @@ pub struct Vec3<T> {
 pub type Field = Vec3<Complex64>;
 
 impl<T: Scalar> Vec3<T> {
+    /// A vector by its components.
     pub fn new(x: T, y: T, z: T) -> Self {
         Self { x, y, z }
     }
@@ -26,10 +38,12 @@ impl<T: Scalar> Vec3<T> {
         Self { x: T::real(v.x), y: T::real(v.y), z: T::real(v.z) }
     }
 
+    /// Scalar product, without conjugation.
     pub fn dot(self, o: Self) -> T {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
+    /// Vector product.
     pub fn cross(self, o: Self) -> Self {
         Self {
             x: self.y * o.z - self.z * o.y,

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 /// What went wrong with a medium: the field or file, the value, and what is accepted.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum MediumError {
     /// Numbers are nanometres with as many digits as tell them apart.
     #[error("wavelength {wavelength} nm is outside the data of {name} ({range}){hint}")]

@@ -2,6 +2,7 @@
 
 use super::data::material::Material;
 use super::error::{MediumError, PLAUSIBLE_INDEX, invalid, is_plausible, nanometres};
+use super::own::OwnMedium;
 use super::solution::Solution;
 use super::water::daimon::Daimon;
 use super::water::{self, sea};
@@ -14,17 +15,32 @@ pub enum Medium {
     /// The same index at every wavelength.
     Constant(Complex64),
     /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables.
-    Water { temperature: f64 },
+    Water {
+        /// Kelvin.
+        temperature: f64,
+    },
     /// Water or steam of any density (kg/m³), temperature in kelvin.
-    WaterOfDensity { temperature: f64, density: f64 },
+    WaterOfDensity {
+        /// Kelvin.
+        temperature: f64,
+        /// kg/m³.
+        density: f64,
+    },
     /// Sea water, temperature in kelvin, salinity in g/kg.
-    SeaWater { temperature: f64, salinity: f64 },
+    SeaWater {
+        /// Kelvin.
+        temperature: f64,
+        /// g/kg.
+        salinity: f64,
+    },
     /// Distilled water after Daimon & Masumura.
     Daimon(Arc<Daimon>),
     /// A material by a formula or a table.
     Material(Arc<Material>),
     /// A dye in a host.
     Solution(Arc<Solution>),
+    /// A function of the wavelength.
+    Own(OwnMedium),
 }
 
 impl Medium {
@@ -54,6 +70,7 @@ impl Medium {
             Medium::Daimon(water) => water.index(wavelength),
             Medium::Material(material) => material.index(wavelength),
             Medium::Solution(solution) => solution.index(wavelength),
+            Medium::Own(own) => own.index(wavelength),
         }
     }
 
@@ -66,6 +83,7 @@ impl Medium {
             Medium::Daimon(water) => water.range(),
             Medium::Material(material) => material.range,
             Medium::Solution(solution) => solution.range(),
+            Medium::Own(own) => own.range(),
         }
     }
 
@@ -84,6 +102,7 @@ impl Medium {
             Medium::Daimon(water) => format!("water-daimon at {}", celsius(water.temperature())),
             Medium::Material(material) => material.name.clone(),
             Medium::Solution(solution) => solution.name(),
+            Medium::Own(own) => own.name().into(),
         }
     }
 
@@ -105,6 +124,7 @@ impl Medium {
             }
             Medium::Material(material) => material.source.clone(),
             Medium::Solution(solution) => solution.source(),
+            Medium::Own(_) => "a function of its user".into(),
         }
     }
 

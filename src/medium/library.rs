@@ -20,10 +20,13 @@ use std::sync::{Arc, OnceLock};
 /// One line of the library's list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibraryEntry {
+    /// The name that scenes use.
     pub name: String,
+    /// Other names that are accepted.
     pub aliases: Vec<String>,
     /// What it is in a few words.
     pub kind: String,
+    /// Where the data are from.
     pub source: String,
     /// Wavelengths in metres.
     pub range: (f64, f64),

@@ -7,6 +7,21 @@
 //!
 //! `spec` holds what is written down, `read` the readers of files, `data` rows made curves, `dispersion`
 //! formulas, `water` the waters, [`kramers_kronig`] the transform; `library` the media by name.
+//!
+//! ```
+//! use gonio::medium::MediumSpec;
+//! use std::path::Path;
+//!
+//! #[derive(serde::Deserialize)]
+//! struct Keys {
+//!     medium: MediumSpec,
+//! }
+//! let keys: Keys = toml::from_str("medium = { name = \"water\", temperature_c = 20 }")?;
+//! let water = keys.medium.resolve(Path::new("."))?;
+//! assert!((water.index(589.3e-9)?.re - 1.33336).abs() < 2e-5);
+//! assert!(water.index(1.0).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod data;
 mod dispersion;
@@ -14,6 +29,7 @@ mod error;
 mod kinds;
 pub mod kramers_kronig;
 mod library;
+mod own;
 mod read;
 mod shown;
 mod solution;
@@ -30,6 +46,7 @@ pub use dispersion::formula::Formula;
 pub use error::{MediumError, PLAUSIBLE_INDEX, is_plausible};
 pub use kinds::Medium;
 pub use library::{LibraryEntry, list};
+pub use own::OwnMedium;
 pub use read::csv_table::read as read_csv;
 pub use read::extinction::Extinction;
 pub use shown::{even_sample_nm, shown_wavelengths_nm};

@@ -13,8 +13,11 @@ use num_complex::Complex64;
 /// A dye at fraction 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dye {
+    /// What it is called.
     pub name: String,
+    /// Where the data are from.
     pub source: String,
+    /// How it absorbs.
     pub absorption: Absorption,
     /// What the reader of its file changed or left out.
     pub notes: Vec<String>,
@@ -70,6 +73,7 @@ impl Solution {
         (a.0.max(b.0), a.1.min(b.1))
     }
 
+    /// What it is called, with host and strength.
     pub fn name(&self) -> String {
         format!("{} {} in {}", self.dye.name, self.fraction, self.host.name())
     }
@@ -79,6 +83,7 @@ impl Solution {
         own.chain(self.host.notes()).collect()
     }
 
+    /// Where the data are from.
     pub fn source(&self) -> String {
         let n = if self.dispersion { "n by Kramers–Kronig" } else { "n of the host" };
         format!("dye: {} ({n}); host: {}", self.dye.source, self.host.source())

@@ -11,9 +11,13 @@ use num_complex::Complex64;
 /// Reflection and power-normalised transmission for both polarisations.
 #[derive(Clone, Copy, Debug)]
 pub struct Fresnel {
+    /// Reflected over incident field, normal to the plane of incidence.
     pub r_perpendicular: Complex64,
+    /// Reflected over incident field, in the plane of incidence.
     pub r_parallel: Complex64,
+    /// Transmitted over incident field, normal to the plane of incidence, scaled to power.
     pub t_perpendicular: Complex64,
+    /// Transmitted over incident field, in the plane of incidence, scaled to power.
     pub t_parallel: Complex64,
 }
 

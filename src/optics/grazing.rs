@@ -23,6 +23,7 @@ pub struct Grazing {
     pub root: Complex64,
     /// `Λ` and `A*/A` of the incoming wave, for reflection outside.
     pub lambda_in: Complex64,
+    /// Phase of the way from the turning point to the surface and back, as a factor.
     pub turn: Complex64,
 }
 

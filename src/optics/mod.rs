@@ -22,6 +22,17 @@
 //!   negative in the rainbow, where the degree of linear polarisation `-S12/S11` is positive.
 //! - **Order** `p` counts the chords inside the particle: 0 external reflection, 1 transmission,
 //!   2 primary bow, 3 secondary bow. Forward diffraction is kept apart from `p = 0`.
+//!
+//! ```
+//! use gonio::optics::fresnel;
+//!
+//! // Brewster's angle from vacuum into glass: nothing is reflected in the plane of incidence
+//! let index = 1.5f64;
+//! let cos = (1.0 / (1.0 + index * index)).sqrt();
+//! let f = fresnel(cos, index.into());
+//! assert!(f.r_parallel.norm() < 1e-15);
+//! assert!((f.r_perpendicular.norm_sqr() + f.t_perpendicular.norm_sqr() - 1.0).abs() < 1e-14);
+//! ```
 
 mod amplitude;
 mod descartes;

@@ -3,8 +3,11 @@
 /// Light that an observer with or without a filter sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Polarisation {
+    /// All of it.
     Total,
+    /// The electric field in the scattering plane.
     Parallel,
+    /// The electric field normal to the scattering plane.
     Perpendicular,
 }
 

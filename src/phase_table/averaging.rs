@@ -15,7 +15,9 @@ pub enum DiscOfSun {
     /// Light from a point.
     #[default]
     None,
+    /// Equally bright everywhere.
     Uniform,
+    /// Darker and redder towards its rim.
     LimbDarkened,
 }
 
@@ -27,10 +29,12 @@ impl DiscOfSun {
         ("limb-darkened", DiscOfSun::LimbDarkened),
     ];
 
+    /// The word that files use.
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(_, disc)| *disc == self).map_or("", |(name, _)| name)
     }
 
+    /// The treatment by that word.
     pub fn from_name(name: &str) -> Option<DiscOfSun> {
         Self::NAMES.iter().find(|(word, _)| *word == name).map(|(_, disc)| *disc)
     }
@@ -39,6 +43,7 @@ impl DiscOfSun {
 /// What was averaged over when a table was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Averaging {
+    /// What stands for the sun's disc.
     pub sun_disc: DiscOfSun,
     /// Many sizes in place of one.
     pub sizes: bool,

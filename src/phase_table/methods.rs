@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 pub struct MethodPart {
     /// `None`: all orders in one.
     pub order: Option<u32>,
+    /// The method in words.
     pub method: String,
     /// Why this one.
     pub reason: String,
@@ -33,6 +34,7 @@ pub struct MethodPart {
 /// A formula and where it stands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FormulaPart {
+    /// The formula in words.
     pub formula: String,
     /// Least and largest scattering angle, at some azimuth, degrees.
     pub theta_deg: [f64; 2],
@@ -44,10 +46,13 @@ pub struct FormulaPart {
 pub struct MethodRange {
     /// Number of the first wavelength, and how many there are.
     pub first: usize,
+    /// How many wavelengths there are.
     pub count: usize,
     /// The first and the last, nanometres.
     pub from_nm: f64,
+    /// The last, nanometres.
     pub to_nm: f64,
+    /// Methods by order.
     pub parts: Vec<MethodPart>,
 }
 

@@ -26,8 +26,11 @@ const BUDGET_TOLERANCE: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{field} = {value}: {accepted}")]
 pub struct InvalidTable {
+    /// What is wrong.
     pub field: String,
+    /// Its value.
     pub value: String,
+    /// What would do.
     pub accepted: String,
 }
 

@@ -8,6 +8,7 @@ use num_complex::Complex64;
 
 /// Why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum PlanError {
     #[error(transparent)]
     Shape(#[from] ShapeError),

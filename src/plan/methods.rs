@@ -17,6 +17,7 @@ const GRID: usize = 60;
 /// The methods of a range of wavelengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedRange {
+    /// Wavelengths and methods.
     pub range: MethodRange,
     /// What is skipped, and why.
     pub skipped: Vec<String>,

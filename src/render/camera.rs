@@ -76,6 +76,7 @@ impl FromStr for Lens {
 /// Where the camera looks and how wide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
+    /// How directions are spread over the picture.
     pub lens: Lens,
     /// Angle across the picture's width, radians.
     pub field_of_view: f64,
@@ -83,7 +84,9 @@ pub struct Camera {
     pub elevation: f64,
     /// Its azimuth from the antisolar direction, to the right, radians.
     pub azimuth: f64,
+    /// Pixels across.
     pub width: usize,
+    /// Pixels down.
     pub height: usize,
 }
 

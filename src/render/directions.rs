@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 /// θ × φ samples with bilinear interpolation; φ goes round.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionGrid {
+    /// Scattering angles, radians, ascending.
     pub theta: Vec<f64>,
     /// As in the table; one value when the table stands for all azimuths.
     pub phi: Vec<f64>,
@@ -21,6 +22,7 @@ pub struct DirectionGrid {
 pub(super) type Corners = [(usize, f64); 4];
 
 impl DirectionGrid {
+    /// The directions of a table.
     pub fn new(axes: &Axes) -> Self {
         let (theta, phi) = (axes.theta.clone(), axes.phi.clone());
         let (wraps, whole_circle) = match phi.as_slice() {
@@ -41,6 +43,7 @@ impl DirectionGrid {
         self.theta.len() * self.phi.len()
     }
 
+    /// True where there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -4,13 +4,23 @@
 //! of a picture names drops in place of tables. Stages of a rainbow:
 //! table → XYZ per direction (`tristimulus`) → mixture of drops → what each pixel of the
 //! `camera` sees of the sky, averaged over the sun's disc (`sky`) → sRGB → PNG.
+//!
+//! ```
+//! use gonio::render::camera::Lens;
+//!
+//! // the primary bow, 42° from the antisolar point, through a lens that keeps lines straight
+//! let distance = Lens::Rectilinear.distance(42f64.to_radians()).expect("less than 90°");
+//! assert!((distance - 0.9004).abs() < 1e-4);
+//! ```
 
 #[cfg(feature = "hdf5")]
 pub mod bow;
 pub mod camera;
 mod directions;
 mod picture;
+#[cfg(feature = "pictures")]
 mod plots;
+#[cfg(feature = "pictures")]
 mod ray_paths;
 pub mod sky;
 mod thinned;
@@ -18,10 +28,15 @@ mod tristimulus;
 
 pub use directions::DirectionGrid;
 pub use picture::{Picture, write_complete};
+#[cfg(feature = "pictures")]
 pub use plots::color_diagram::ColorDiagram;
+#[cfg(feature = "pictures")]
 pub use plots::font::{FONT, ensure_font};
+#[cfg(feature = "pictures")]
 pub use plots::heat_map::{colour_bar, draw_pixels};
+#[cfg(feature = "pictures")]
 pub use plots::preview;
+#[cfg(feature = "pictures")]
 pub use ray_paths::draw_ray_paths;
 pub use thinned::Thinned;
 pub use tristimulus::{Tristimulus, rotational_xyz};
@@ -32,6 +47,7 @@ use std::path::PathBuf;
 
 /// Why a picture cannot be made.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum RenderError {
     #[error(transparent)]
     Color(#[from] ColorError),
@@ -52,6 +68,7 @@ impl Blame for RenderError {
     }
 }
 
+#[cfg(feature = "pictures")]
 impl<E: std::error::Error + Send + Sync> From<plotters::drawing::DrawingAreaErrorKind<E>>
     for RenderError
 {

@@ -7,7 +7,9 @@ use std::path::Path;
 /// 8-bit sRGB, rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
+    /// Pixels across.
     pub width: usize,
+    /// Pixels down.
     pub height: usize,
     /// `3 · width · height` bytes.
     pub rgb: Vec<u8>,
@@ -23,6 +25,7 @@ impl Picture {
     ///
     /// # Errors
     /// [`RenderError::Drawing`] when the encoder refuses (a side of 0).
+    #[cfg(feature = "pictures")]
     pub fn png(&self) -> Result<Vec<u8>, RenderError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
@@ -40,6 +43,7 @@ impl Picture {
     ///
     /// # Errors
     /// [`RenderError::Write`] with the path.
+    #[cfg(feature = "pictures")]
     pub fn write_png(&self, path: &Path) -> Result<(), RenderError> {
         write_complete(path, &self.png()?)
     }

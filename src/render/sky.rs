@@ -22,7 +22,9 @@ use std::f64::consts::TAU;
 /// Where the drops are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RainShape {
+    /// A curtain of rain at a distance.
     Curtain,
+    /// Rain all about the observer.
     Around,
 }
 
@@ -31,10 +33,15 @@ pub enum RainShape {
 pub struct Sky {
     /// Sun above the horizon, radians.
     pub sun_elevation: f64,
+    /// Whether the sun's disc smooths it.
     pub sun_disc: bool,
+    /// What shines.
     pub illuminant: Illuminant,
+    /// Whose eyes.
     pub observer: Observer,
+    /// Where the rain is.
     pub rain: RainShape,
+    /// Optical depth of the rain along a line of sight.
     pub optical_depth: f64,
     /// Colour behind the rain, linear sRGB.
     pub background: [f64; 3],
@@ -52,7 +59,9 @@ pub struct Sky {
 
 /// A kind of drop and how many of them there are (relative numbers).
 pub struct Drops<'a> {
+    /// How one kind of drop scatters.
     pub table: &'a PhaseTable,
+    /// Drops of this kind, relative to the others.
     pub number: f64,
 }
 

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 /// XYZ (in sr⁻¹: 1 would be the illuminant's white) over the directions of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tristimulus {
+    /// Directions of the values.
     pub grid: DirectionGrid,
     /// θ-major.
     pub xyz: Vec<[f32; 3]>,

@@ -42,6 +42,7 @@ use num_complex::Complex64;
 pub struct Request {
     /// `2πa/λ` of the sphere of equal volume.
     pub size_parameter: f64,
+    /// Index of the particle.
     pub index: Complex64,
     /// Scattering angles, radians, in any order.
     pub theta: Vec<f64>,
@@ -56,6 +57,7 @@ pub struct Request {
 pub struct Scattering {
     /// In the order of the request's angles.
     pub amplitudes: Vec<AmplitudeMatrix>,
+    /// Cross-sections over the shadow's area.
     pub efficiencies: Efficiencies,
     /// Whether forward diffraction is among the amplitudes.
     pub diffraction_included: bool,
@@ -72,6 +74,7 @@ pub struct Remainder {
     pub largest: f64,
     /// Of the amplitudes, root mean square, relative to Lorenz–Mie without diffraction.
     pub share: f64,
+    /// The last order of the sum.
     pub last_order: u32,
     /// Whether the share is more than the tolerance, where the number of terms was this module's choice.
     pub not_converged: bool,
@@ -79,6 +82,7 @@ pub struct Remainder {
 
 /// Why a particle cannot be answered for.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ScatterError {
     #[error(transparent)]
     Plan(#[from] PlanError),

@@ -19,7 +19,10 @@ pub enum RayDiffraction {
     None,
     /// Intensities of patches smoothed near bows by the filter of Sadeghi et al. 2012 for a drop of
     /// this radius (metres); phases are those of the rays.
-    Gaussian { radius: f64 },
+    Gaussian {
+        /// Metres.
+        radius: f64,
+    },
     /// Uniform formulas at every bow.
     Airy,
 }
@@ -27,9 +30,11 @@ pub enum RayDiffraction {
 /// A particle for rays, and how it is done.
 #[derive(Clone, Debug)]
 pub struct RayRequest {
+    /// The particle.
     pub shape: Shape,
     /// Just these; `None`: all that matter at the tolerance, and forward diffraction.
     pub orders: Option<Vec<u32>>,
+    /// What of diffraction goes with them.
     pub diffraction: RayDiffraction,
     /// Rays across the silhouette for patches; `None`: by the tolerance.
     pub rays_across: Option<usize>,

@@ -22,7 +22,9 @@ pub enum SizeConflict {
         radius: f64,
         /// Metres.
         wavelength: f64,
+        /// The size parameter that was given.
         parameter: f64,
+        /// The one that radius and wavelength make.
         implied: f64,
     },
     /// They do not say it.

@@ -61,8 +61,11 @@ pub(super) fn chosen<T: Named>(choice: Option<Choice<T>>, key: &str) -> Result<T
 /// The kinds of particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShapeName {
+    /// A sphere.
     Sphere,
+    /// A spheroid.
     Spheroid,
+    /// A falling raindrop.
     Raindrop,
 }
 

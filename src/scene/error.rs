@@ -10,11 +10,24 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A key of a scene that was built in memory, such as `particle.radius_mm`.
-    Key { key: String },
+    Key {
+        /// Dotted, as `particle.radius_mm`.
+        key: String,
+    },
     /// A key in a file, or the file as a whole where `key` is empty.
-    File { file: String, line: Option<usize>, key: String },
+    File {
+        /// Its name.
+        file: String,
+        /// From 1, where it is known.
+        line: Option<usize>,
+        /// Dotted, as `particle.radius_mm`.
+        key: String,
+    },
     /// A flag of the command line, such as `--radius-mm`.
-    Flag { flag: String },
+    Flag {
+        /// As `--radius-mm`.
+        flag: String,
+    },
 }
 
 impl Place {
@@ -47,6 +60,7 @@ impl fmt::Display for Place {
 
 /// Why a scene was refused.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum SceneError {
     #[error("{}: cannot read the scene: {source}", path.display())]
     Read { path: PathBuf, source: std::io::Error },

@@ -20,12 +20,16 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "cli", derive(clap::Args))]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneFile {
+    /// `[particle]`.
     #[cfg_attr(feature = "cli", command(flatten))]
     pub particle: ParticleKeys,
+    /// `[light]`.
     #[cfg_attr(feature = "cli", command(flatten))]
     pub light: LightKeys,
+    /// `[table]`.
     #[cfg_attr(feature = "cli", command(flatten))]
     pub table: TableKeys,
+    /// `[model]`.
     #[cfg_attr(feature = "cli", command(flatten))]
     pub model: ModelKeys,
 }

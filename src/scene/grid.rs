@@ -13,11 +13,15 @@ const MAX_COUNT: u64 = 10_000_000;
 /// Values of one axis, in the unit of its key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Grid {
+    /// The values themselves.
     List(Vec<f64>),
     /// Evenly spaced, both ends included.
     Range {
+        /// First value.
         from: f64,
+        /// Last value.
         to: f64,
+        /// Number of values, both ends among them.
         count: u64,
     },
 }

@@ -15,6 +15,7 @@ mod file;
 #[cfg(feature = "cli")]
 mod flags;
 mod grid;
+mod own;
 mod particle;
 mod read;
 mod size;
@@ -39,7 +40,7 @@ pub use sizes::SizeKeys;
 
 use crate::medium::{Density, Medium};
 use crate::phase_table::{ForwardPeak, Quantity};
-use crate::shape::RaindropModel;
+use crate::shape::{OwnBody, RaindropModel};
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
@@ -47,19 +48,33 @@ use std::path::Path;
 pub const BUILT_IN: &str = include_str!("../../data/scenes/raindrop.toml");
 
 /// What scatters. Radii are those of the sphere of equal volume, metres.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Particle {
+    /// A sphere.
     Sphere {
+        /// Metres.
         radius: f64,
     },
     /// `axis_ratio` is vertical over horizontal diameter.
     Spheroid {
+        /// Metres.
         radius: f64,
+        /// Vertical over horizontal diameter.
         axis_ratio: f64,
     },
+    /// A falling raindrop.
     Raindrop {
+        /// Metres.
         radius: f64,
+        /// Who gives its shape.
         model: RaindropModel,
+    },
+    /// A body that no key of a scene file names: see [`Scene::with_own_body`].
+    Own {
+        /// Metres.
+        radius: f64,
+        /// Its outline.
+        body: OwnBody,
     },
 }
 
@@ -68,14 +83,18 @@ pub enum Particle {
 pub enum Method {
     /// Lorenz–Mie for a sphere, rays otherwise.
     Auto,
+    /// Rays traced with phase, on any particle.
     Rays,
+    /// The Lorenz–Mie series, on spheres.
     Mie,
+    /// Single orders of the Lorenz–Mie series, on spheres.
     Debye,
 }
 
 /// Diffraction in the ray method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Diffraction {
+    /// Rays alone.
     None,
     /// The Gaussian filter of Sadeghi et al. 2012.
     Gaussian,
@@ -110,24 +129,37 @@ pub struct Scene {
     pub particle: Particle,
     /// Many spheres in place of one.
     pub size_distribution: Option<SizeDistribution>,
+    /// What the particle is made of.
     pub medium: Medium,
     /// Of the medium, where it is known.
     pub density: Option<Density>,
+    /// Sun above the horizon, radians.
     pub sun_elevation: f64,
+    /// Wavelengths in vacuum, metres.
     pub wavelengths: Vec<f64>,
     /// Full width at half maximum of the band that each wavelength stands for; 0: none.
     pub bandwidth: f64,
+    /// What the sun's disc does.
     pub sun_disc: SunDisc,
+    /// Scattering angles, radians.
     pub theta: Vec<f64>,
+    /// Azimuths, radians.
     pub phi: Vec<f64>,
+    /// What is tabulated.
     pub quantity: Quantity,
+    /// How the forward peak enters.
     pub forward_peak: ForwardPeak,
     /// Bits of the mantissa that the file keeps of each value; `None`: all.
     pub bit_round: Option<u8>,
+    /// Who computes.
     pub method: Method,
+    /// Whether rays interfere.
     pub interference: bool,
+    /// How rays diffract.
     pub diffraction: Diffraction,
+    /// Orders to be summed.
     pub orders: Orders,
+    /// Relative error asked for.
     pub tolerance: f64,
     /// A mean that misses the tolerance is marked in the table rather than a failure.
     pub allow_unmet_tolerance: bool,

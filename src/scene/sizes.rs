@@ -18,11 +18,41 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SizeKeys {
-    Delta { radius_um: f64 },
-    Normal { mean_radius_um: f64, deviation_um: f64 },
-    LogNormal { median_radius_um: f64, spread: f64 },
-    Gamma { effective_radius_um: f64, effective_variance: f64 },
-    MarshallPalmer { rain_rate_mm_h: f64, from_radius_um: f64, to_radius_um: f64 },
+    /// Spheres of one size.
+    Delta {
+        /// µm.
+        radius_um: f64,
+    },
+    /// A Gaussian distribution of radii.
+    Normal {
+        /// µm.
+        mean_radius_um: f64,
+        /// Standard deviation, µm.
+        deviation_um: f64,
+    },
+    /// A Gaussian distribution of logarithms of radii.
+    LogNormal {
+        /// µm.
+        median_radius_um: f64,
+        /// Standard deviation of ln(radius).
+        spread: f64,
+    },
+    /// A gamma distribution after Hansen.
+    Gamma {
+        /// µm.
+        effective_radius_um: f64,
+        /// Of the radii, over the square of the effective radius.
+        effective_variance: f64,
+    },
+    /// Rain after Marshall & Palmer 1948.
+    MarshallPalmer {
+        /// Rain rate, mm/h.
+        rain_rate_mm_h: f64,
+        /// Smallest radius, µm.
+        from_radius_um: f64,
+        /// Largest radius, µm.
+        to_radius_um: f64,
+    },
 }
 
 /// Radii of spheres, micrometres: from a nanometre to a centimetre.

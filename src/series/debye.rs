@@ -68,9 +68,11 @@ struct Interface {
 pub struct Cut {
     /// a_n and b_n of diffraction and the orders up to the cut.
     pub a: Vec<Complex64>,
+    /// Electric coefficients, by multipole.
     pub b: Vec<Complex64>,
     /// The waves behind the cut.
     pub electric: Vec<Behind>,
+    /// The same of magnetic multipoles.
     pub magnetic: Vec<Behind>,
     /// Absorption efficiency without the beats of the waves behind the cut: its mean over sizes is
     /// the mean absorption, but it has no resonances.

@@ -33,7 +33,9 @@ const CHUNK: usize = 128;
 /// Partial waves of one sphere; index 0 is n = 1.
 #[derive(Clone, Debug, Default)]
 pub struct PartialWaves {
+    /// Electric coefficients, by multipole.
     pub a: Vec<Complex64>,
+    /// Magnetic coefficients, by multipole.
     pub b: Vec<Complex64>,
 }
 

@@ -2,6 +2,15 @@
 //!
 //! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`]); [`angular`] sums them
 //! over the angles; [`mean`] averages over sizes and wavelengths.
+//!
+//! ```
+//! use gonio::series::lorenz_mie::Sphere;
+//!
+//! // Bohren & Huffman 1983, appendix A: x = 3, m = 1.33 + 10⁻⁸i
+//! let q = Sphere::new(3.0, num_complex::Complex64::new(1.33, 1e-8))?.efficiencies();
+//! assert!((q.q_ext - q.q_sca - q.q_abs).abs() < 1e-12 && q.q_abs > 0.0);
+//! # Ok::<(), gonio::series::SeriesError>(())
+//! ```
 
 pub mod angular;
 mod behind;
@@ -28,6 +37,7 @@ pub const MAX_TERMS: usize = 20_000_000;
 
 /// What is wrong with the input of a series.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum SeriesError {
     #[error("size parameter = {0}: accepted are finite numbers of at least {MIN_SIZE_PARAMETER:e}")]
     SizeParameter(f64),
@@ -57,8 +67,11 @@ impl Blame for SeriesError {
 /// Efficiencies (cross-section over πa²) and the asymmetry parameter of a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Efficiencies {
+    /// Extinction over the shadow's area.
     pub q_ext: f64,
+    /// Scattering over the shadow's area.
     pub q_sca: f64,
+    /// Absorption over the shadow's area.
     pub q_abs: f64,
     /// Radar back-scattering efficiency `4 |S(180°)|²/x²`.
     pub q_back: f64,

@@ -25,6 +25,7 @@ use std::f64::consts::{PI, TAU};
 /// What is summed.
 #[derive(Clone, Debug)]
 pub enum Source {
+    /// The whole series.
     LorenzMie,
     /// Debye terms; their sum is normalised with the exact scattering cross-section. Of one size
     /// and one wavelength only.
@@ -34,12 +35,17 @@ pub enum Source {
 /// Spheres and their light.
 #[derive(Clone, Debug)]
 pub struct SphereJob<'a> {
+    /// Which series.
     pub source: Source,
+    /// Of the spheres.
     pub sizes: SizeDistribution,
+    /// What they are made of.
     pub medium: &'a Medium,
     /// Wavelength in vacuum and width of a band about it, metres.
     pub wavelength: f64,
+    /// Full width at half maximum of each wavelength's band, metres; 0: none.
     pub bandwidth: f64,
+    /// What the sun's disc does.
     pub sun_disc: SunDisc,
     /// Relative error of means asked for.
     pub tolerance: f64,

@@ -7,18 +7,26 @@ use crate::math::vec3::Vec3;
 /// `F` and its first derivatives with respect to `q = x·x` and `ζ = x·down`.
 #[derive(Clone, Copy, Debug)]
 pub struct Slope<T> {
+    /// `F`.
     pub f: T,
+    /// `∂F/∂q`
     pub q: T,
+    /// `∂F/∂ζ`
     pub z: T,
 }
 
 /// First and second derivatives of `F` with respect to `q` and `ζ`.
 #[derive(Clone, Copy, Debug)]
 pub struct Level<T> {
+    /// `∂F/∂q`
     pub q: T,
+    /// `∂F/∂ζ`
     pub z: T,
+    /// `∂²F/∂q²`
     pub qq: T,
+    /// `∂²F/∂q∂ζ`
     pub qz: T,
+    /// `∂²F/∂ζ²`
     pub zz: T,
 }
 

@@ -5,14 +5,29 @@
 //! below the centre); `F < 0` inside. A kind of shape supplies only this function of two scalars
 //! with its derivatives, for real and for complex points; intersection, normal and curvature
 //! follow for all kinds alike.
+//!
+//! ```
+//! use gonio::shape::{RaindropModel, Shape};
+//!
+//! // a falling drop of 2 mm is flatter than it is wide, and flattest below
+//! let drop = Shape::raindrop(2e-3, RaindropModel::BeardChuang1987, 0.0)?;
+//! let down = drop.down;
+//! let below = drop.radius_towards(down.x, down.y, down.z);
+//! let above = drop.radius_towards(-down.x, -down.y, -down.z);
+//! let aside = drop.radius_towards(0.0, 1.0, 0.0);
+//! assert!(below < above && above < aside);
+//! # Ok::<(), gonio::shape::ShapeError>(())
+//! ```
 
 mod level;
+mod own;
 mod raindrop;
 mod silhouette;
 mod sphere;
 mod spheroid;
 
 pub use level::{Level, Slope, Tangent};
+pub use own::{Outline, OwnBody};
 pub use raindrop::{Raindrop, RaindropModel};
 pub use silhouette::Silhouette;
 
@@ -22,11 +37,14 @@ use crate::math::vec3::Vec3;
 
 /// What went wrong with a shape.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ShapeError {
     #[error("radius {radius_mm} mm is outside the drop model {model} ({from_mm} to {to_mm} mm)")]
     RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
     #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
     AxisRatio(f64),
+    #[error("shape \"{name}\": {fault}; accepted: {accepted}")]
+    OwnBody { name: String, fault: String, accepted: &'static str },
 }
 
 impl Blame for ShapeError {
@@ -38,14 +56,20 @@ impl Blame for ShapeError {
 /// The kind of body, its equal-volume sphere scaled to radius 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
+    /// A sphere.
     Sphere,
+    /// A spheroid.
     Spheroid(spheroid::Spheroid),
+    /// A falling raindrop.
     Raindrop(Raindrop),
+    /// One that is none of these, by its own formula.
+    Own(OwnBody),
 }
 
 /// A body, and the direction of its axis in the frame of the light (see [`crate::optics`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
+    /// The body itself.
     pub body: Body,
     /// Unit vector from the body's centre to its lower pole, in the frame of the light.
     pub down: Vec3<f64>,
@@ -73,6 +97,11 @@ impl Shape {
         Ok(Self { body, down: down(sun_elevation) })
     }
 
+    /// A body by its own formula (see [`Outline`]) with the sun at an elevation (radians).
+    pub fn own(body: OwnBody, sun_elevation: f64) -> Self {
+        Self { body: Body::Own(body), down: down(sun_elevation) }
+    }
+
     /// True when scattering cannot depend on azimuth: a sphere, or light along the axis.
     pub fn rotational_symmetry(&self) -> bool {
         self.is_sphere() || self.down.x.abs() < 1e-12
@@ -84,6 +113,7 @@ impl Shape {
             Body::Sphere => true,
             Body::Spheroid(spheroid) => spheroid.is_sphere(),
             Body::Raindrop(drop) => drop.is_sphere(),
+            Body::Own(own) => own.is_sphere(),
         }
     }
 
@@ -93,6 +123,7 @@ impl Shape {
             Body::Sphere => sphere::level(q),
             Body::Spheroid(spheroid) => spheroid.level(q, depth),
             Body::Raindrop(drop) => drop.level(q, depth),
+            Body::Own(own) => own.level(q, depth),
         }
     }
 
@@ -102,6 +133,7 @@ impl Shape {
             Body::Sphere => sphere::slope(q),
             Body::Spheroid(spheroid) => spheroid.slope(q, depth),
             Body::Raindrop(drop) => drop.slope(q, depth),
+            Body::Own(own) => own.slope(q, depth),
         }
     }
 
@@ -110,6 +142,7 @@ impl Shape {
         match &self.body {
             Body::Sphere | Body::Spheroid(_) => 0.0,
             Body::Raindrop(_) => raindrop::ROUGH_CORE,
+            Body::Own(own) => own.rough_core(),
         }
     }
 
@@ -119,6 +152,7 @@ impl Shape {
             Body::Sphere => 1.0,
             Body::Spheroid(spheroid) => spheroid.bounding_radius(),
             Body::Raindrop(drop) => drop.bounding_radius(),
+            Body::Own(own) => own.bounding_radius(),
         }
     }
 }

@@ -24,7 +24,9 @@ const SMALLEST_RADIUS: f64 = 1e-6;
 /// Model of the equilibrium shape of a falling raindrop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaindropModel {
+    /// Beard & Chuang 1987.
     BeardChuang1987,
+    /// Chuang & Beard 1990.
     ChuangBeard1990,
 }
 

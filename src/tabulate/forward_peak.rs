@@ -86,7 +86,9 @@ pub struct PeakRows {
 /// the cell is fine enough for the sample to stand for it).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PeakSample {
+    /// Its amplitudes at the direction.
     pub amplitude: AmplitudeMatrix,
+    /// Mean of its intensity over the cell.
     pub mean: f64,
 }
 

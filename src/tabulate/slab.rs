@@ -12,16 +12,23 @@ use rayon::prelude::*;
 
 /// Settings of one slab.
 pub struct Tabulator<'a> {
+    /// Scattering angles, radians.
     pub theta: &'a [f64],
+    /// Circumference of the sphere of equal volume over the wavelength.
     pub size_parameter: f64,
+    /// What is tabulated.
     pub quantity: Quantity,
+    /// How the forward peak enters.
     pub forward_peak: ForwardPeak,
+    /// Whether amplitudes add, or intensities.
     pub interference: bool,
     /// Standard deviation (radians) of the Gaussian filter, where it stands for diffraction.
     pub filter: Option<f64>,
+    /// The forward wave, where it is in the table.
     pub diffraction: Option<ForwardWave<'a>>,
     /// Cross section for scattering and area of the shadow, in units of the squared radius.
     pub scattering: f64,
+    /// Area of the shadow, in squared radii.
     pub shadow_area: f64,
     /// Share of the scattered power that is in no order of the table: what Σ P·ΔΩ lacks to 1.
     pub left_out: f64,
@@ -29,10 +36,15 @@ pub struct Tabulator<'a> {
 
 /// The values of a slab and what was found on the way.
 pub struct Values {
+    /// Values in sr⁻¹, shape (elements, θ, φ).
     pub values: Array3<f32>,
+    /// Rays that coalesce, shape (θ, φ).
     pub caustic_order: Option<Array2<u8>>,
+    /// Sum over the samples before the forward peak was treated.
     pub sum_before_peak: f64,
+    /// Share of the power in the separated peak.
     pub peak_share: f64,
+    /// Mean cosine of the scattering angle.
     pub asymmetry: f64,
 }
 

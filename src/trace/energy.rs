@@ -8,6 +8,7 @@ use rayon::prelude::*;
 pub struct Fates {
     /// Left after `p` chords, by order.
     pub left_by_order: Vec<f64>,
+    /// Power absorbed along the chords.
     pub absorbed: f64,
     /// Still inside after the last order because it was totally reflected.
     pub totally_reflected: f64,

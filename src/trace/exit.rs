@@ -9,6 +9,7 @@ use num_complex::Complex64;
 /// A ray on its way to infinity, after `order` chords.
 #[derive(Clone, Copy, Debug)]
 pub struct Exit<T> {
+    /// Number of chords.
     pub order: u32,
     /// Unit direction.
     pub direction: Vec3<T>,

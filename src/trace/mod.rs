@@ -4,6 +4,18 @@
 //! emitting plane (through the centre, normal to the light); it leaves once per order, each time as
 //! an [`Exit`]. All rays of one order form a *sheet*. The tracer is generic over its scalar: real
 //! rays, and the complex ones behind a caustic.
+//!
+//! ```
+//! use gonio::shape::Shape;
+//! use gonio::trace::Tracer;
+//!
+//! // the ray that turns back at the primary bow of a water drop (Descartes)
+//! let (shape, index) = (Shape::sphere(), 1.333f64);
+//! let tracer = Tracer::new(&shape, index.into(), 5000.0, 2);
+//! let impact = ((4.0 - index * index) / 3.0).sqrt();
+//! let bow = tracer.trace_order(impact, 0.0, 2).expect("the ray meets the sphere");
+//! assert!((bow.scattering_angle().to_degrees() - 137.92).abs() < 0.01);
+//! ```
 
 mod energy;
 mod exit;

@@ -31,6 +31,7 @@ pub struct SymmetryPlane<'a> {
 pub struct PlaneRay {
     /// Impact parameter, positive above the middle.
     pub impact: f64,
+    /// Where and how it leaves.
     pub exit: Exit<f64>,
     /// Points where the ray meets the surface, in the frame of the light (upper side x, along z).
     pub points: Vec<[f64; 2]>,

@@ -27,8 +27,11 @@ const MOST_HITS: usize = 10_000;
 /// What is left of a ray's power when tracing stops, as fractions of what it brought.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Remainder {
+    /// Power absorbed along the chords.
     pub absorbed: f64,
+    /// Power still inside because it was totally reflected.
     pub totally_reflected: f64,
+    /// Power still inside otherwise.
     pub truncated: f64,
 }
 

@@ -757,15 +757,15 @@ mod judge {
         let engine = Plan::new(scene).map_err(|e| e.to_string())?.engine;
         let mut by = "no truth";
         for slab in &table.slabs {
-            by = match (engine, scene.particle) {
+            by = match (engine, &scene.particle) {
                 (Engine::LorenzMie, _) if is_mean(scene) => mean(scene, slab)?,
                 (Engine::LorenzMie, _) => exact(scene, slab)?,
                 (Engine::Debye, _) => debye(scene, table, slab)?,
                 (_, Particle::Sphere { radius }) => {
-                    sphere_by_rays(scene, table, slab, radius, 0.0)?
+                    sphere_by_rays(scene, table, slab, *radius, 0.0)?
                 }
                 (Engine::Meridians, Particle::Spheroid { radius, axis_ratio }) => {
-                    deformed(scene, table, slab, radius, axis_ratio)?
+                    deformed(scene, table, slab, *radius, *axis_ratio)?
                 }
                 _ => "no truth",
             };
@@ -792,7 +792,8 @@ mod judge {
         // Small raindrops are spheres.
         let (Particle::Sphere { radius }
         | Particle::Raindrop { radius, .. }
-        | Particle::Spheroid { radius, .. }) = scene.particle;
+        | Particle::Spheroid { radius, .. }
+        | Particle::Own { radius, .. }) = scene.particle;
         let (x, m) = (TAU * radius / slab.wavelength, slab.index);
         let shadow = PI * radius * radius;
         let (ext, sca) =

@@ -43,8 +43,7 @@ impl MemoryFlag {
             human_bytes(scene.table_size().slab_bytes),
             human_bytes(needed),
             human_bytes(limit)
-        ))
-        .into())
+        )))
     }
 }
 

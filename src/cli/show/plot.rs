@@ -42,7 +42,7 @@ pub fn save<F: Figure>(figure: &F, path: &Path, size: (u32, u32)) -> Result<()> 
         _ => {
             let message =
                 format!("{}: a plot's file name must end in .png or .svg", path.display());
-            return Err(Failure::usage(message).into());
+            return Err(Failure::usage(message));
         }
     };
     write_whole(path, &bytes)

@@ -14,6 +14,7 @@ use std::f64::consts::TAU;
 
 /// Why a case has no truth.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum SpeedError {
     #[error(transparent)]
     Series(#[from] SeriesError),
@@ -36,13 +37,19 @@ const INDEX: f64 = 1.3314;
 
 /// One particle, directions in one plane, and the intensities that are right there.
 pub struct SpeedCase {
+    /// Short name, for lists.
     pub name: &'static str,
+    /// Above its chart.
     pub title: String,
+    /// The particle.
     pub shape: Shape,
+    /// `2πa/λ` of the sphere of equal volume.
     pub size_parameter: f64,
     /// Radius for the width of the Gaussian filter, metres.
     pub radius: f64,
+    /// Index of the particle.
     pub index: Complex64,
+    /// Of the plane of all directions, radians.
     pub azimuth: f64,
     /// Scattering angles, radians, ascending.
     pub theta: Vec<f64>,

@@ -29,9 +29,11 @@ pub struct Trials {
 pub struct Point {
     /// Name of the case.
     pub case: &'static str,
+    /// Who computed.
     pub method: Method,
     /// Rays across the drop, or the tolerance.
     pub setting: f64,
+    /// Time that it took.
     pub seconds: f64,
     /// Relative L2 error of the unpolarised intensity.
     pub error: f64,
@@ -43,8 +45,11 @@ pub struct Point {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
+    /// The published method with its filter.
     PaperGaussian,
+    /// The published method without a filter.
     PaperUnfiltered,
+    /// This engine.
     Engine,
 }
 

@@ -15,8 +15,11 @@ use crate::phase_table::PhaseTable;
 /// A swept dimension, as sasktran2 names it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeDimension {
+    /// Its name.
     pub name: String,
+    /// In the words of UDUNITS.
     pub units: String,
+    /// Ascending.
     pub values: Vec<f64>,
 }
 

@@ -58,6 +58,7 @@ impl Formula {
 /// Where a formula stands for single rays, at some azimuth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FormulaRange {
+    /// What stands there.
     pub formula: Formula,
     /// Least and largest scattering angle, radians.
     pub theta: [f64; 2],

@@ -33,7 +33,9 @@ use std::f64::consts::PI;
 /// The method of one order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assigned {
+    /// Number of chords.
     pub order: u32,
+    /// What computes it.
     pub method: Method,
     /// Why, in the order in which it came about.
     pub reasons: Vec<Reason>,
@@ -46,6 +48,7 @@ pub struct Assigned {
 /// What became of an order's planes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanesOutcome {
+    /// Number of chords.
     pub order: u32,
     /// `None` where they do not match.
     pub found: Option<(Spacing, Vec<FormulaRange>)>,
@@ -54,7 +57,9 @@ pub struct PlanesOutcome {
 /// How far an order's planes are from a second method: the largest share of the amplitude in a band.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
+    /// Number of chords.
     pub order: u32,
+    /// Largest difference over the amplitude.
     pub share: f64,
 }
 

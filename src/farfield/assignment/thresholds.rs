@@ -29,6 +29,7 @@ pub struct Thresholds {
 
     /// Highest order that `orders = "auto"` goes to, and the least last order that it takes.
     pub highest_order: u32,
+    /// The least last order that `"auto"` takes.
     pub least_last_order: u32,
     /// Share of the light that orders left out may hold, per tolerance. Alexander's band holds about 1 %
     /// of the light per steradian that the bow beside it does, so that orders must be kept down to far
@@ -82,6 +83,7 @@ pub struct Thresholds {
     /// `1/√x`, and the tolerance up to which those are worth their time: ten times that of patches where
     /// few directions are asked for.
     pub beams_from: f64,
+    /// The tolerance of the sentence above.
     pub beams_tolerance: f64,
 
     /// Size parameter of the largest sphere that a method is measured on; no error of rays grows with the
@@ -105,6 +107,7 @@ pub struct Thresholds {
     pub error_of_beams: f64,
     /// Of patches without bows (reflection), and with.
     pub error_of_reflection_by_patches: f64,
+    /// The same with bows.
     pub error_of_patches: f64,
 }
 

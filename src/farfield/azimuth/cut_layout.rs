@@ -13,6 +13,7 @@ pub struct CutLayout {
     pub scan: usize,
     /// Angle about later axis crossings that is left out, radians.
     pub axis_gap: f64,
+    /// Its folds, in order.
     pub folds: Vec<FoldLayout>,
     /// Launch coordinate at which the last plain segment is cut in two, where last rays differ: the
     /// inner part does not depend on them.
@@ -21,6 +22,7 @@ pub struct CutLayout {
     pub density: f64,
     /// Pieces of each plain segment; empty while the layout is being found.
     pub knots: Vec<usize>,
+    /// Circumference of the sphere of equal volume over the wavelength.
     pub size_parameter: f64,
     /// Whether the order's rays cross the axis again.
     pub high: bool,
@@ -61,6 +63,7 @@ impl CutLayout {
 pub struct FoldLayout {
     /// Its reach on the dark and the lit side, radians.
     pub dark: f64,
+    /// The other of the two.
     pub lit: f64,
     /// Argument of the Airy function per radian, where it grows fastest.
     pub per_angle: f64,

@@ -10,8 +10,10 @@ use super::matching::another;
 use super::order_planes::{Azimuths, OrderPlanes, mirror};
 use crate::farfield::assignment::{PlanesOutcome, Thresholds};
 use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
+use crate::farfield::branch::knots::{Kind, Segment};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::farfield::forward::penumbra::Penumbra;
+use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
@@ -27,6 +29,17 @@ pub struct PlaneSet {
     pub(crate) checked_azimuth: f64,
     /// Orders whose planes do not correspond.
     unmatched: Vec<u32>,
+}
+
+/// A stretch of exit angles whose wave is computed by one formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Number of chords.
+    pub order: u32,
+    /// What its knots hold; `None` for the wave about the axis.
+    pub kind: Option<Kind>,
+    /// Exit angles at its ends, unwrapped, radians.
+    pub angles: [f64; 2],
 }
 
 /// Where interpolation over azimuth is checked: off the even steps by nearly half of one, for both
@@ -171,6 +184,22 @@ impl PlaneSet {
             Some(sums.map(|sums| sums.amplitudes()))
         };
         self.orders.par_iter().filter_map(check).collect()
+    }
+
+    /// What the waves of each order in the first plane are computed by, for pictures.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let of_order = |planes: &OrderPlanes| {
+            let order = planes.order;
+            let segments = planes.planes.first().into_iter().flatten();
+            let piece = move |segment: &Segment| {
+                let angles = [segment.knots.first()?[0], segment.knots.last()?[0]];
+                Some(Piece { order, kind: Some(segment.kind), angles })
+            };
+            let glory = move |wave: &Glory| Piece { order, kind: None, angles: wave.angles() };
+            let about_axis = planes.about_axis.iter().map(glory);
+            segments.filter_map(piece).chain(about_axis).collect::<Vec<_>>()
+        };
+        self.orders.iter().flat_map(of_order).collect()
     }
 
     /// How many rays more than two may coalesce near each sample: 3 within an axis gap, else 0.

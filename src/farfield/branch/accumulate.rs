@@ -23,6 +23,7 @@ pub struct Samples {
 }
 
 impl Samples {
+    /// Samples at these scattering angles (radians, ascending).
     pub fn new(theta: &[f64]) -> Self {
         let last = theta.last().copied().unwrap_or(0.0);
         let mut padded = theta.to_vec();
@@ -44,6 +45,7 @@ pub struct Sums {
 }
 
 impl Sums {
+    /// Empty sums for these samples.
     pub fn new(samples: &Samples) -> Self {
         let rows = std::array::from_fn(|_| vec![0.0; samples.padded.len()]);
         Self { rows, count: samples.count }
@@ -60,7 +62,9 @@ impl Sums {
 /// Which half of a plane a column is: the side of its azimuth, or the far side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
+    /// That of the plane's own azimuth.
     Near,
+    /// That of the azimuth opposite.
     Far,
 }
 

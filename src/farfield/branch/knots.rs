@@ -21,9 +21,17 @@ pub type Knot = [f64; CHANNELS];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// One ray per direction; focal lines passed; whether it starts at the axial ray.
-    Plain { focal_lines: u32, from_axis: bool },
+    Plain {
+        /// Focal lines passed.
+        focal_lines: u32,
+        /// Whether it starts at the axial ray.
+        from_axis: bool,
+    },
     /// Two rays; sum of their focal lines.
-    Pair { focal_lines: u32 },
+    Pair {
+        /// Sum over both rays.
+        focal_lines: u32,
+    },
     /// A wave that is no sum of rays, all phases in its amplitudes.
     Wave,
 }
@@ -31,6 +39,7 @@ pub enum Kind {
 /// A stretch of a curve.
 #[derive(Clone, Debug)]
 pub struct Segment {
+    /// What the knots interpolate.
     pub kind: Kind,
     /// Angles monotone, ascending or descending.
     pub knots: Vec<Knot>,

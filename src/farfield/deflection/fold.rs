@@ -22,6 +22,7 @@ pub const PAIR_CHANNELS: usize = 18;
 /// A fold on a plane.
 #[derive(Clone, Debug)]
 pub struct Fold {
+    /// Launch coordinate of the ray that touches the caustic.
     pub alpha: f64,
     /// Unwrapped angle of the caustic.
     pub angle: f64,

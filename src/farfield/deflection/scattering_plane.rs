@@ -17,7 +17,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The rays of one order in one plane.
 pub struct ScatteringPlane<'a> {
+    /// Traces the rays.
     pub tracer: &'a Tracer<'a>,
+    /// Number of chords.
     pub order: u32,
     /// Azimuth of the plane.
     pub azimuth: f64,
@@ -33,11 +35,13 @@ pub struct ScatteringPlane<'a> {
 pub struct Node {
     /// Launch coordinate: `sin α` of the way from the axial ray to the rim.
     pub alpha: f64,
+    /// Azimuth of the launch point on the emitting plane, radians.
     pub psi: f64,
     /// Launch point.
     pub place: [f64; 2],
     /// Unwrapped exit angle.
     pub angle: f64,
+    /// Where and how the ray leaves.
     pub exit: Exit<f64>,
 }
 

@@ -11,9 +11,11 @@ use num_complex::Complex64;
 /// The forward wave of one particle and wavelength.
 #[derive(Clone, Copy, Debug)]
 pub struct ForwardWave<'a> {
+    /// Diffraction at the shadow.
     pub shadow: &'a ForwardDiffraction,
     /// The edge wave; beyond the axis it is among the planes of order 0.
     pub edge: Option<&'a Penumbra>,
+    /// Circumference of the sphere of equal volume over the wavelength.
     pub size_parameter: f64,
 }
 

@@ -30,6 +30,11 @@ pub struct Glory {
 const FRESNEL_ZONES: f64 = 12.0;
 
 impl Glory {
+    /// Scattering angles that it reaches, radians.
+    pub(crate) fn angles(&self) -> [f64; 2] {
+        if self.forward { [0.0, self.reach] } else { [PI - self.reach, PI] }
+    }
+
     /// About the axis at the unwrapped angle `number · π`, from an integrand over impacts.
     pub(crate) fn new(
         integrand: &Integrand,

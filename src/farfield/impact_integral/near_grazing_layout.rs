@@ -12,6 +12,7 @@ use std::f64::consts::{PI, TAU};
 pub struct NearGrazingLayout {
     /// Launch points `sin α` at which the weight leaves 0 and reaches 1.
     pub start: f64,
+    /// Where the integral has taken over entirely.
     pub full: f64,
     /// Launch point `sin α` of a sphere's bow.
     pub bow: f64,

@@ -25,7 +25,9 @@ pub struct CollectingSphere {
 /// A patch that contains the direction asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit<'a> {
+    /// The sheet it lies on.
     pub sheet: &'a Sheet,
+    /// Which triangle of the sheet.
     pub triangle: usize,
     /// Weights of the three corners, sum 1.
     pub weights: [f64; 3],

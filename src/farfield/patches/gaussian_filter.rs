@@ -39,7 +39,9 @@ pub fn standard_deviation(radius: f64) -> f64 {
 /// A bow on a line of constant azimuth.
 #[derive(Clone, Copy, Debug)]
 pub struct Bow {
+    /// Its scattering angle, radians.
     pub theta: f64,
+    /// Number of chords.
     pub order: u32,
 }
 

@@ -23,7 +23,9 @@ pub enum PathInterpolation {
 /// Sums over patches.
 #[derive(Clone, Copy, Debug)]
 pub struct Interference {
+    /// Circumference of the sphere of equal volume over the wavelength.
     pub size_parameter: f64,
+    /// How the path goes on between the corners.
     pub interpolation: PathInterpolation,
     /// Largest `dA/dΩ` that a ray from order 2 on may have: at a caustic rays have none, the wave
     /// there has (of the order of `x^{1/3}` at a fold).

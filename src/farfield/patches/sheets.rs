@@ -11,11 +11,17 @@ use rayon::prelude::*;
 /// One traced ray as a corner of patches.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
+    /// Unit vector of the exit direction.
     pub direction: Vec3<f64>,
+    /// Where the exit ray crosses the plane through the centre normal to it.
     pub reference: Vec3<f64>,
+    /// Optical path to infinity, against a ray through the centre; in radii.
     pub path: f64,
+    /// Determinant of the exit direction with respect to the launch point, signed.
     pub spread: f64,
+    /// Fields for the two incident polarisations.
     pub field: [Field; 2],
+    /// Focal lines passed.
     pub focal_lines: u32,
     /// Place on the emitting plane.
     pub place: [f64; 2],
@@ -27,8 +33,11 @@ pub type Triangle = [u32; 3];
 /// All rays of one order.
 #[derive(Clone, Debug)]
 pub struct Sheet {
+    /// Number of chords.
     pub order: u32,
+    /// Rays of the grid.
     pub corners: Vec<Corner>,
+    /// Patches between them.
     pub triangles: Vec<Triangle>,
 }
 

@@ -25,10 +25,13 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 /// How the sum is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HuygensFresnel {
+    /// Circumference of the sphere of equal volume over the wavelength.
     pub size_parameter: f64,
+    /// Number of chords.
     pub order: u32,
     /// Grid of the emitting plane, see [`Wavefront::midpoints`].
     pub rings: usize,
+    /// Rays about the axis.
     pub spokes: usize,
     /// Angle between ray and direction (radians) at which a ray counts half.
     pub window: f64,
@@ -37,6 +40,7 @@ pub struct HuygensFresnel {
 /// The sum in one direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Wave {
+    /// The amplitude matrix.
     pub amplitude: AmplitudeMatrix,
     /// Path `C` of the reference surface, in radii.
     pub surface: f64,

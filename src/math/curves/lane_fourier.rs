@@ -11,17 +11,21 @@ use std::f64::consts::TAU;
 
 /// Sequences carried together.
 pub const LANES: usize = 8;
+/// Real numbers side by side.
 pub type Lanes = [f64; LANES];
 
 /// One complex number of every sequence.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Row {
+    /// Real parts.
     pub re: Lanes,
+    /// Imaginary parts.
     pub im: Lanes,
 }
 
 impl Row {
+    /// Zero in every lane.
     pub const ZERO: Self = Self { re: [0.0; LANES], im: [0.0; LANES] };
 }
 

@@ -30,9 +30,11 @@ impl RealIndex {
 /// Name, source and data of one material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
+    /// What it is called.
     pub name: String,
     /// Publication and database the data are from.
     pub source: String,
+    /// How n is given.
     pub real: RealIndex,
     /// Extinction coefficient by wavelength in metres; none: transparent.
     pub extinction: Option<DataCurve>,

@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 /// Values by ascending wavelength (metres) with the rows that could not be used.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
+    /// Wavelengths in vacuum, metres, ascending.
     pub wavelength: Vec<f64>,
+    /// Values at them.
     pub value: Vec<f64>,
     flaws: Vec<Flaw>,
     path: PathBuf,
@@ -45,6 +47,7 @@ const NOISE: f64 = 0.1;
 const TOLD: usize = 2;
 
 impl Samples {
+    /// True where there is none.
     pub fn is_empty(&self) -> bool {
         self.wavelength.is_empty()
     }

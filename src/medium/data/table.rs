@@ -14,7 +14,9 @@ use std::path::Path;
 pub struct Table {
     /// What the file says about its source.
     pub source: String,
+    /// Real part.
     pub n: Samples,
+    /// Imaginary part.
     pub k: Samples,
     /// Decadic absorbance `log10(I0/I)`.
     pub absorbance: Samples,

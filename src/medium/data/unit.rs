@@ -4,16 +4,27 @@
 /// The unit of a file's first column. All stand for a wavelength in vacuum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
+    /// 10⁻⁹ m.
     Nanometre,
+    /// 10⁻⁶ m.
     Micrometre,
+    /// 10⁻³ m.
     Millimetre,
+    /// Metres.
     Metre,
+    /// 10⁻¹⁰ m.
     Angstrom,
+    /// Wavenumber, per centimetre.
     PerCentimetre,
+    /// Wavenumber, per metre.
     PerMetre,
+    /// Energy of a photon.
     ElectronVolt,
+    /// Frequency.
     Hertz,
+    /// Frequency, 10⁹ Hz.
     Gigahertz,
+    /// Frequency, 10¹² Hz.
     Terahertz,
 }
 

@@ -48,7 +48,9 @@ impl AbbeLines {
 /// Index at the middle line and Abbe number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Abbe {
+    /// Refractive index at the line.
     pub index: f64,
+    /// Dispersion: index less 1 over the difference of the indices at two other lines.
     pub number: f64,
 }
 

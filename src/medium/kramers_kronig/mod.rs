@@ -36,7 +36,9 @@ pub enum Tails {
 /// How k runs between the rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Between {
+    /// Straight lines.
     Lines,
+    /// Cubic splines.
     Spline,
 }
 

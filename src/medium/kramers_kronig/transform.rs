@@ -12,7 +12,12 @@ use crate::medium::kramers_kronig::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransformMethod {
     /// A curve through the rows, integrated exactly through the pole.
-    Continuous { between: Between, tails: Tails },
+    Continuous {
+        /// Between the rows.
+        between: Between,
+        /// Beyond the rows.
+        tails: Tails,
+    },
     /// Every other row, which steps over the pole; beyond the rows there is nothing.
     Maclaurin,
 }
@@ -20,7 +25,9 @@ pub enum TransformMethod {
 /// What a transform gives, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transformed {
+    /// Real part of the index.
     pub n: Vec<f64>,
+    /// Imaginary part of the index.
     pub k: Vec<f64>,
     /// How far what lies beyond the ends may change the result; `None` where nothing tells.
     pub worth: Option<Vec<f64>>,

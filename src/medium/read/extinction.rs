@@ -11,7 +11,9 @@ use std::path::Path;
 /// k by wavelength, from a file without n.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extinction {
+    /// What it is called.
     pub name: String,
+    /// Where the data are from.
     pub source: String,
     /// What the reader of the file changed or left out.
     pub notes: Vec<String>,

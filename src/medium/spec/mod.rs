@@ -29,37 +29,62 @@ use std::path::{Path, PathBuf};
 /// A medium as it is written down; [`MediumSpec::resolve`] makes a [`Medium`](crate::medium::Medium) of it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MediumSpec {
+    /// A medium of the library.
     Named(NamedSpec),
+    /// The same index at every wavelength.
     Index {
+        /// Real part.
         n: f64,
+        /// Imaginary part; positive absorbs.
         k: f64,
     },
     /// A file of optical data; `glass` is the name in a catalogue of several.
     File {
+        /// The file, relative to the scene's folder.
         path: PathBuf,
+        /// Glass to take from a catalogue of many.
         glass: Option<String>,
+        /// Go on beyond the data by the nearest value.
         extrapolate: bool,
     },
+    /// Sellmeier's formula.
     Sellmeier {
+        /// Strengths of the resonances.
         b: Vec<f64>,
+        /// Squares of their wavelengths, µm².
         c_um2: Vec<f64>,
     },
+    /// Cauchy's formula: coefficients of 1, λ⁻², λ⁻⁴, …, λ in µm.
     Cauchy(Vec<f64>),
+    /// A glass by its index and Abbe number.
     Abbe {
+        /// Index at the line.
         index: f64,
+        /// Abbe number.
         number: f64,
+        /// The line.
         line: AbbeLines,
     },
+    /// A dye of the library in a host.
     Solution {
+        /// Name of the dye.
         solute: String,
+        /// Share of the host's volume that the dye fills.
         fraction: f64,
+        /// What it is dissolved in.
         host: Box<MediumSpec>,
+        /// Whether its absorption changes n too (Kramers–Kronig).
         dispersion: bool,
     },
+    /// A solution by its measured absorbance.
     Absorbance {
+        /// The file, relative to the scene's folder.
         path: PathBuf,
+        /// Path in the cuvette.
         path_mm: f64,
+        /// What it is dissolved in.
         host: Box<MediumSpec>,
+        /// Whether its absorption changes n too (Kramers–Kronig).
         dispersion: bool,
     },
 }
@@ -67,10 +92,15 @@ pub enum MediumSpec {
 /// A name in the library with the conditions that go with it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NamedSpec {
+    /// Name in the library.
     pub name: String,
+    /// Temperature, where the index depends on it.
     pub temperature_c: Option<f64>,
+    /// Density, in place of the library's.
     pub density_kg_m3: Option<f64>,
+    /// Salinity, of sea water.
     pub salinity_g_kg: Option<f64>,
+    /// Go on beyond the data by the nearest value.
     pub extrapolate: bool,
 }
 

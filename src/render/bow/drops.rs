@@ -27,6 +27,7 @@ pub struct DropKeys {
     pub table: Option<String>,
     /// sphere or raindrop
     pub shape: Option<String>,
+    /// Radius of equal volume, mm.
     pub radius_mm: Option<f64>,
     /// As in a scene of one particle; files are looked for beside the scene.
     pub medium: Option<MediumSpec>,

@@ -13,6 +13,7 @@ use std::path::PathBuf;
 
 /// Why a picture of a scene cannot be made.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum BowError {
     #[error("{}: {source}", path.display())]
     Read { path: PathBuf, source: std::io::Error },

@@ -17,11 +17,17 @@ use std::str::FromStr;
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BowScene {
+    /// What shines.
     pub sun: SunKeys,
+    /// Where the picture is taken.
     pub camera: CameraKeys,
+    /// How much rain there is.
     pub rain: RainKeys,
+    /// What is behind the rain.
     pub sky: SkyKeys,
+    /// What is before the camera.
     pub filter: FilterKeys,
+    /// Kinds of drops.
     pub drops: Vec<DropKeys>,
 }
 
@@ -29,9 +35,13 @@ pub struct BowScene {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SunKeys {
+    /// Above the horizon, degrees.
     pub elevation_deg: Option<f64>,
+    /// Whether its disc smooths the bow.
     pub disc: Option<bool>,
+    /// Name of the illuminant.
     pub illuminant: Option<String>,
+    /// Name of the observer.
     pub observer: Option<String>,
 }
 
@@ -39,11 +49,17 @@ pub struct SunKeys {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraKeys {
+    /// Pixels across.
     pub width: Option<usize>,
+    /// Pixels down.
     pub height: Option<usize>,
+    /// Angle across the picture, degrees.
     pub fov_deg: Option<f64>,
+    /// Name of the lens.
     pub lens: Option<String>,
+    /// Of the optical axis above the horizon, degrees.
     pub elevation_deg: Option<f64>,
+    /// Of the optical axis from the antisolar direction, to the right, degrees.
     pub azimuth_deg: Option<f64>,
 }
 
@@ -51,6 +67,7 @@ pub struct CameraKeys {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RainKeys {
+    /// Along a line of sight.
     pub optical_depth: Option<f64>,
     /// `curtain` or `around`.
     pub shape: Option<String>,
@@ -62,9 +79,13 @@ pub struct RainKeys {
 pub struct SkyKeys {
     /// sRGB, 0 to 255.
     pub background: Option<[u8; 3]>,
+    /// Colour below the horizon, sRGB, 0 to 255; absent: rain falls there too.
     pub ground: Option<[u8; 3]>,
+    /// Luminance of the brightest bow pixel before the background is added.
     pub brightness: Option<f64>,
+    /// Exposure given outright, in place of `brightness`.
     pub exposure: Option<f64>,
+    /// Draw the horizon as a line.
     pub horizon_line: bool,
 }
 
@@ -72,6 +93,7 @@ pub struct SkyKeys {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FilterKeys {
+    /// Transmission axis, degrees from the horizontal, counter-clockwise.
     pub polariser_deg: Option<f64>,
 }
 

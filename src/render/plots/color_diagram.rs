@@ -15,11 +15,13 @@ use std::ops::Range;
 
 /// What is drawn and written around it.
 pub struct ColorDiagram<'a> {
+    /// Above the picture.
     pub title: &'a str,
     /// Second line: how the colours were made.
     pub subtitle: &'a str,
     /// Millimetres, ascending.
     pub radii: &'a [f64],
+    /// Whether the axis of radii is logarithmic.
     pub logarithmic: bool,
     /// Degrees, ascending.
     pub theta: &'a [f64],
