@@ -6,13 +6,11 @@
 //! faster than there are planes. So every plane is compared with the polynomial through its
 //! neighbours.
 
-use crate::farfield::branch::knots::{Kind, Knot, PLAIN_AMPLITUDE, Segment};
+use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 
 /// Weights of the neighbours one, two and three steps away on either side, of the polynomial of fifth
 /// degree through them, half-way.
 const WEIGHTS: [f64; 3] = [0.75, -0.3, 0.05];
-/// Channels of S1 and S2, which are even in azimuth.
-const EVEN: std::ops::Range<usize> = PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 4;
 
 /// Largest difference between planes at even steps over a half-turn and what their neighbours make
 /// of them: the phase of their paths at equal angles, or waves relative to their largest. Infinite
@@ -36,22 +34,29 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
     let (mut paths, mut waves, mut size) = (0.0f64, 0.0f64, 0.0f64);
     for j in 0..=last {
         for (i, knot) in planes[j][s].knots.iter().enumerate() {
-            let mut expected = [0.0; EVEN.end];
+            let mut expected = Knot::default();
             for (k, weight) in WEIGHTS.iter().enumerate() {
                 for neighbour in around(j, k + 1) {
                     add(&mut expected, *weight, &planes[neighbour][s].knots[i]);
                 }
             }
-            let path = knot[1] + knot[2] * (expected[0] - knot[0]);
-            paths = paths.max((expected[1] - path).abs());
-            waves = EVEN.map(|c| (expected[c] - knot[c]).abs()).fold(waves, f64::max);
-            size = EVEN.map(|c| knot[c].abs()).fold(size, f64::max);
+            let (knot, expected) = (knot.single(), expected.single());
+            let path = knot.path + knot.path_slope * (expected.angle - knot.angle);
+            paths = paths.max((expected.path - path).abs());
+            // S1 and S2, which are even in azimuth
+            for (found, expected) in knot.amplitudes[..2].iter().zip(&expected.amplitudes) {
+                let off = expected - found;
+                waves = waves.max(off.re.abs()).max(off.im.abs());
+                size = size.max(found.re.abs()).max(found.im.abs());
+            }
         }
     }
     let wave = planes[0][s].kind == Kind::Wave;
     (size_parameter * paths).max(if wave { waves / size } else { 0.0 })
 }
 
-fn add(sum: &mut [f64; EVEN.end], weight: f64, knot: &Knot) {
-    sum.iter_mut().zip(knot).for_each(|(sum, value)| *sum += weight * value);
+fn add(sum: &mut Knot, weight: f64, knot: &Knot) {
+    for c in 0..CHANNELS {
+        sum.channels_mut()[c] += weight * knot.channels()[c];
+    }
 }

@@ -262,8 +262,7 @@ fn fill_missing(mut planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment
             return None;
         }
         let between = |(a, b): (&Segment, &Segment)| {
-            let knot =
-                |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
+            let knot = |(a, b): (&Knot, &Knot)| a.towards(b, share);
             Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
         };
         planes[k] = Some(a.iter().zip(b).map(between).collect());

@@ -7,7 +7,7 @@
 //! coalesce somewhere: cusps, umbilics) are told by [`PlaneSet::outcomes`].
 
 use super::matching::another;
-use super::order_planes::{Azimuths, OrderPlanes, mirror};
+use super::order_planes::{Azimuths, OrderPlanes};
 use crate::farfield::assignment::{PlanesOutcome, Thresholds};
 use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
@@ -132,7 +132,7 @@ impl PlaneSet {
                 for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| far) {
                     // the plane of φ + π is the mirror image of that of π - φ
                     let mut segment = planes.segment(number, PI - azimuth).into_owned();
-                    mirror(&mut segment);
+                    segment.mirror();
                     add_segment(sums, &samples, &segment, Side::Far, x);
                 }
             }

@@ -5,7 +5,7 @@
 //! part in a row of its own; the loops are plain arithmetic over arrays, compiled for several
 //! instruction sets and chosen at run time.
 
-use super::knots::{Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes};
+use super::knots::{Kind, Knot, Segment, parabola_slopes};
 use crate::math::airy;
 use crate::math::fused::multiply_add;
 use crate::math::phase::sin_cos_turns_with;
@@ -78,7 +78,7 @@ pub fn add_segment(
     size_parameter: f64,
 ) {
     let (first, last) = match (segment.knots.first(), segment.knots.last()) {
-        (Some(a), Some(b)) => (a[0], b[0]),
+        (Some(a), Some(b)) => (a.angle(), b.angle()),
         _ => return,
     };
     let (low, high) = (first.min(last), first.max(last));
@@ -111,12 +111,12 @@ fn sweep(
     let knots = &segment.knots;
     let pieces = knots.len() - 1;
     // θ grows with the unwrapped angle on the near side
-    let forward = (knots[pieces][0] - knots[0][0]) * sign > 0.0;
+    let forward = (knots[pieces].angle() - knots[0].angle()) * sign > 0.0;
     let mut slopes: Option<Vec<Knot>> = None;
     let mut at = usize::MAX;
     for step in 0..pieces {
         let k = if forward { step } else { pieces - 1 - step };
-        let (a, b) = (sign * (knots[k][0] - turn), sign * (knots[k + 1][0] - turn));
+        let (a, b) = (sign * (knots[k].angle() - turn), sign * (knots[k + 1].angle() - turn));
         let (low, high) = (a.min(b), a.max(b));
         if high < -AXIAL || low > PI + AXIAL {
             continue;
@@ -221,6 +221,20 @@ fn hermite(v0: f64, s0: f64, v1: f64, s1: f64) -> [f64; 4] {
     [v0, s0, 3.0 * d - 2.0 * s0 - s1, s0 + s1 - 2.0 * d]
 }
 
+/// Cubics of real and imaginary parts, from values and slopes at both ends, `h` apart.
+#[inline(always)]
+fn cubics_between(
+    cubics: &mut [[f64; 4]; 8],
+    [a, a_rate]: [&[Complex64; 4]; 2],
+    [b, b_rate]: [&[Complex64; 4]; 2],
+    h: f64,
+) {
+    for e in 0..4 {
+        cubics[2 * e] = hermite(a[e].re, a_rate[e].re * h, b[e].re, b_rate[e].re * h);
+        cubics[2 * e + 1] = hermite(a[e].im, a_rate[e].im * h, b[e].im, b_rate[e].im * h);
+    }
+}
+
 #[inline(always)]
 fn cubic<const FMA: bool>(c: &[f64; 4], t: f64) -> f64 {
     multiply_add::<FMA>(t, multiply_add::<FMA>(t, multiply_add::<FMA>(t, c[3], c[2]), c[1]), c[0])
@@ -285,15 +299,13 @@ fn single<const FMA: bool>(
     x: f64,
     turns: f64,
 ) {
-    let h = b[0] - a[0];
-    let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
+    let (a, b) = (a.single(), b.single());
+    let h = b.angle - a.angle;
+    let path = hermite(a.path, a.path_slope * h, b.path, b.path_slope * h);
     let mut cubics = [[0.0; 4]; 8];
-    for (c, cubic) in cubics.iter_mut().enumerate() {
-        let (value, slope) = (PLAIN_AMPLITUDE + c, SLOPE + c);
-        *cubic = hermite(a[value], a[slope] * h, b[value], b[slope] * h);
-    }
+    cubics_between(&mut cubics, [&a.amplitudes, &a.rates], [&b.amplitudes, &b.rates], h);
     for start in (piece.begin..piece.end).step_by(LANES) {
-        let t = piece.places(start, a[0], 1.0 / h);
+        let t = piece.places(start, a.angle, 1.0 / h);
         let scale = piece.inside(start, x);
         let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &scale);
         for e in 0..4 {
@@ -317,16 +329,18 @@ fn pair<const FMA: bool>(
     let sixth = x.powf(1.0 / 6.0);
     let two_thirds = sixth.powi(4);
     let (scale0, scale1) = (x * PI.sqrt() * sixth, x * PI.sqrt() / sixth);
-    let h = b[0] - a[0];
-    let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
-    let zeta = hermite(a[3], a[4] * h, b[3], b[4] * h);
-    let mut cubics = [[0.0; 4]; 16];
-    for (c, cubic) in cubics.iter_mut().enumerate() {
-        let i = PAIR_AMPLITUDE + c;
-        *cubic = hermite(a[i], slopes[0][i] * h, b[i], slopes[1][i] * h);
-    }
+    let (a, b) = (a.pair(), b.pair());
+    let (rise, fall) = (slopes[0].pair(), slopes[1].pair());
+    let h = b.angle - a.angle;
+    let path = hermite(a.path, a.path_slope * h, b.path, b.path_slope * h);
+    let zeta = hermite(a.zeta, a.zeta_slope * h, b.zeta, b.zeta_slope * h);
+    let mut cubics = [[[0.0; 4]; 8]; 2];
+    cubics_between(&mut cubics[0], [&a.sums, &rise.sums], [&b.sums, &fall.sums], h);
+    let ends = [[&a.differences, &rise.differences], [&b.differences, &fall.differences]];
+    cubics_between(&mut cubics[1], ends[0], ends[1], h);
+    let [sums, differences] = cubics;
     for start in (piece.begin..piece.end).step_by(LANES) {
-        let t = piece.places(start, a[0], 1.0 / h);
+        let t = piece.places(start, a.angle, 1.0 / h);
         let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &piece.inside(start, 1.0));
         let (mut w0, mut w1) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES.min(piece.end - start) {
@@ -336,9 +350,9 @@ fn pair<const FMA: bool>(
         for e in 0..4 {
             // w0 g₀ + i w1 g₁
             let (r, i) = (2 * e, 2 * e + 1);
-            let (a, b) = (cubics_at::<FMA>(&cubics[r], &t), cubics_at::<FMA>(&cubics[i], &t));
-            let c = cubics_at::<FMA>(&cubics[8 + i], &t);
-            let d = cubics_at::<FMA>(&cubics[8 + r], &t);
+            let (a, b) = (cubics_at::<FMA>(&sums[r], &t), cubics_at::<FMA>(&sums[i], &t));
+            let c = cubics_at::<FMA>(&differences[i], &t);
+            let d = cubics_at::<FMA>(&differences[r], &t);
             let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
             for k in 0..LANES {
                 re[k] = w0[k] * a[k] - w1[k] * c[k];

@@ -20,7 +20,7 @@ use super::glory::Glory;
 use super::integrand::{Integrand, Sums};
 use super::near_grazing_layout::NearGrazingLayout;
 use super::rays::{Prefactor, Rays};
-use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
+use crate::farfield::branch::knots::{Kind, Knot, Segment, SingleKnot};
 use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -75,7 +75,7 @@ impl<'l> NearGrazing<'l> {
             let sums = self.integrand.sum(angle, path, x);
             knots.push(wave_knot([angle, path, slope], factor, &sums, x));
         }
-        let finite = knots.iter().flatten().all(|v| v.is_finite());
+        let finite = knots.iter().all(Knot::is_finite);
         finite.then_some(Segment { kind: Kind::Wave, knots })
     }
 
@@ -95,21 +95,17 @@ impl<'l> NearGrazing<'l> {
 
 /// A knot of a wave from its sums: `place` is angle, reference path and the slope of that.
 pub(crate) fn wave_knot(place: [f64; 3], factor: Complex64, sums: &Sums, x: f64) -> Knot {
-    let [angle, path, slope] = place;
-    let mut knot = [0.0; CHANNELS];
-    (knot[0], knot[1], knot[2]) = (angle, path, slope);
+    let [angle, path, path_slope] = place;
+    let mut knot = SingleKnot { angle, path, path_slope, ..SingleKnot::default() };
     let shrink = -0.5 * angle.cos() / angle.sin();
     for (element, (sum, by_impact)) in sums[0].iter().zip(&sums[1]).enumerate() {
         let value = factor * sum;
         // d/dϑ of exp(-ix(βϑ + W_ref)) and of 1/√sin ϑ
-        let by_angle = -Complex64::i() * x * (factor * by_impact + slope * value);
-        let rate = by_angle + shrink * value;
-        let c = PLAIN_AMPLITUDE + 2 * element;
-        (knot[c], knot[c + 1]) = (value.re, value.im);
-        let c = SLOPE + 2 * element;
-        (knot[c], knot[c + 1]) = (rate.re, rate.im);
+        let by_angle = -Complex64::i() * x * (factor * by_impact + path_slope * value);
+        knot.amplitudes[element] = value;
+        knot.rates[element] = by_angle + shrink * value;
     }
-    knot
+    knot.into()
 }
 
 /// For each knot the part of the reference path that is due to the knots' own slopes.
