@@ -13,6 +13,7 @@ use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::settings::FarFieldSettings;
+use crate::farfield::wave_field::WaveField;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use rayon::prelude::*;
@@ -177,5 +178,18 @@ impl PlaneSet {
         let (forward, backward) = (gap(0.0), gap(PI));
         let marked = |t: f64| t < forward || PI - t < backward;
         theta.iter().map(|&t| if marked(t) { 3 } else { 0 }).collect()
+    }
+}
+
+impl WaveField for PlaneSet {
+    fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
+        let column = self.columns(theta, &[phi]).swap_remove(0);
+        sums.iter_mut().zip(column).for_each(|(sum, wave)| *sum += wave);
+    }
+
+    fn add_columns(&self, theta: &[f64], azimuths: &[f64], columns: &mut [Vec<AmplitudeMatrix>]) {
+        for (column, found) in columns.iter_mut().zip(self.columns(theta, azimuths)) {
+            column.iter_mut().zip(found).for_each(|(sum, wave)| *sum += wave);
+        }
     }
 }
