@@ -274,6 +274,6 @@ mod tests {
         let middle = Knot::from(single(0.0)).towards(&single(1.0).into(), 0.5).single();
         assert_eq!(middle.angle, 0.5);
         assert_eq!(middle.path, 1.5);
-        assert!(Knot::from(single(f64::NAN)).is_finite() == false);
+        assert!(!Knot::from(single(f64::NAN)).is_finite());
     }
 }
