@@ -8,10 +8,11 @@
 //! [`phase_table`] is what all computation produces and all output reads.
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `lee`, `batch` · `simulate` · `plan`, `tabulate` · `farfield` · `series`, `export` · `hdf5`,
-//! `compare`, `render` · `scene`, `phase_table`, `trace` · `optics`, `medium`, `shape`, `color`,
-//! `size_distribution` · `math`, `pending_file`.
+//! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
+//! `farfield` · `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
+//! `medium`, `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
 
+pub mod fault;
 pub mod math;
 pub mod pending_file;
 
@@ -23,12 +24,11 @@ pub mod size_distribution;
 
 pub mod phase_table;
 pub mod scene;
+pub mod sun_disc;
 pub mod trace;
 
-pub mod compare;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
-pub mod render;
 pub mod series;
 
 #[cfg(feature = "hdf5")]
@@ -43,3 +43,8 @@ pub mod simulate;
 #[cfg(feature = "hdf5")]
 pub mod batch;
 pub mod lee;
+pub mod scatter;
+
+pub mod render;
+
+pub mod compare;

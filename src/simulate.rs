@@ -7,6 +7,7 @@
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{Direction, ErrorEstimate, FarField, FarFieldSettings};
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{
@@ -42,6 +43,22 @@ pub enum SimulateError {
     Energy { wavelength_nm: f64, residual: f64 },
     #[error("the table would be wrong: {0}")]
     Wrong(#[from] InvalidTable),
+    #[error("the amplitudes would be wrong: {0}")]
+    Amplitudes(InvalidTable),
+}
+
+impl Blame for SimulateError {
+    fn fault(&self) -> Fault {
+        match self {
+            SimulateError::Plan(error) => error.fault(),
+            SimulateError::Medium(error) => error.fault(),
+            SimulateError::Series(error) => error.fault(),
+            SimulateError::Mean(error) => error.fault(),
+            SimulateError::Energy { .. }
+            | SimulateError::Wrong(_)
+            | SimulateError::Amplitudes(_) => Fault::Run,
+        }
+    }
 }
 
 /// Rays per side of the grid on which the energy budget is added up.
@@ -66,8 +83,7 @@ pub fn simulate<E: From<SimulateError>>(
         let header = &header;
         scope.spawn(move || {
             for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-                let slab = slab(scene, &plan, wavelength)
-                    .and_then(|slab| Ok(slab.validate(header, 0.0).map(|()| slab)?));
+                let slab = checked_slab(scene, &plan, header, wavelength);
                 let failed = slab.is_err();
                 if sender.send((i, slab)).is_err() || failed {
                     return;
@@ -92,11 +108,27 @@ pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
     Ok(PhaseTable { header, slabs })
 }
 
-/// One wavelength of a table.
+/// One wavelength of a table, checked as [`simulate`] does.
 ///
 /// # Errors
-/// A wavelength outside the medium's data, or an energy budget that does not add up.
+/// A wavelength outside the medium's data, an energy budget that does not add up, or a slab that
+/// [`Slab::validate`] refuses.
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
+    checked_slab(scene, plan, &header_of(scene, plan, String::new()), wavelength)
+}
+
+fn checked_slab(
+    scene: &Scene,
+    plan: &Plan,
+    header: &TableHeader,
+    wavelength: f64,
+) -> Result<Slab, SimulateError> {
+    let slab = computed_slab(scene, plan, wavelength)?;
+    slab.validate(header, 0.0)?;
+    Ok(slab)
+}
+
+fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
         let slab = series_slab(scene, plan, wavelength)?;
@@ -152,7 +184,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Simulat
         extinction_cross_section: sections.extinction * plan.radius * plan.radius,
         absorption_cross_section: sections.absorption * plan.radius * plan.radius,
         // Patches have no sound wave straight ahead.
-        forward_extinction: (in_table && far_field.straight_forward().is_some())
+        forward_extinction: (plan.forward_diffraction && far_field.straight_forward().is_some())
             .then(|| straight_ahead(&far_field, computed[0]) * plan.radius * plan.radius),
         asymmetry,
         energy: Some(budget),
@@ -263,9 +295,23 @@ impl CrossSections {
     pub fn scattering(&self) -> f64 {
         self.extinction - self.absorption
     }
+
+    /// Numbers, with something scattered and no more absorbed than is taken from the light.
+    fn validate(&self) -> Result<(), SimulateError> {
+        let slack = 1e-6 * self.extinction.abs();
+        let absorbed = (-slack..=self.extinction).contains(&self.absorption);
+        if self.extinction.is_finite() && self.scattering() > 0.0 && absorbed {
+            return Ok(());
+        }
+        let accepted = "0 or more of it absorbed, and more than 0 scattered".to_string();
+        let value = format!("{:e}, absorption {:e}", self.extinction, self.absorption);
+        let field = "extinction in units of the squared radius".into();
+        Err(SimulateError::Amplitudes(InvalidTable { field, value, accepted }))
+    }
 }
 
-/// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre.
+/// Amplitude matrices in chosen directions, absolute phase relative to a wave through the centre; as
+/// computed: [`finite`] checks them.
 pub fn scatter(
     plan: &Plan,
     index: Complex64,
@@ -278,6 +324,9 @@ pub fn scatter(
 /// The same with cross sections, for the share of light on the shadow that rays lose inside.
 ///
 /// With a `filter` (radians) amplitudes of patches have the intensities that it leaves near bows.
+///
+/// # Errors
+/// Amplitudes that are no numbers, cross-sections that are none or out of balance.
 pub fn scatter_with_sections(
     plan: &Plan,
     index: Complex64,
@@ -285,12 +334,37 @@ pub fn scatter_with_sections(
     directions: &[(f64, f64)],
     absorbed: f64,
     filter: Option<f64>,
-) -> (Vec<AmplitudeMatrix>, CrossSections) {
+) -> Result<(Vec<AmplitudeMatrix>, CrossSections), SimulateError> {
     let (mut amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
     if let Some(sigma) = filter {
         amplitudes = far_field.scatter_filtered(directions, plan.forward_diffraction, sigma);
     }
-    (amplitudes, CrossSections::new(plan, &far_field, index, absorbed))
+    let sections = CrossSections::new(plan, &far_field, index, absorbed);
+    sections.validate()?;
+    Ok((finite(amplitudes, directions)?, sections))
+}
+
+/// Amplitudes as they are, where all of them are numbers.
+///
+/// # Errors
+/// The first direction whose amplitude is none.
+pub fn finite(
+    amplitudes: Vec<AmplitudeMatrix>,
+    directions: &[(f64, f64)],
+) -> Result<Vec<AmplitudeMatrix>, SimulateError> {
+    let Some(bad) = amplitudes.iter().position(|amplitude| !amplitude.s11().is_finite()) else {
+        return Ok(amplitudes);
+    };
+    let (theta, phi) = directions.get(bad).copied().unwrap_or((f64::NAN, f64::NAN));
+    Err(SimulateError::Amplitudes(InvalidTable {
+        field: "amplitude".into(),
+        value: format!("{:?}", amplitudes[bad]),
+        accepted: format!(
+            "finite at theta {:.4}°, azimuth {:.4}°",
+            theta.to_degrees(),
+            phi.to_degrees()
+        ),
+    }))
 }
 
 fn scatter_far_field<'a>(
@@ -309,9 +383,12 @@ fn scatter_far_field<'a>(
 /// # Errors
 /// The plan's.
 pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, SimulateError> {
-    let plan = Plan::new(scene)?;
+    Ok(header_of(scene, &Plan::new(scene)?, command_line))
+}
+
+fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> TableHeader {
     let rotational = plan.symmetry == Symmetry::Rotational;
-    Ok(TableHeader {
+    TableHeader {
         axes: Axes {
             wavelength: scene.wavelengths.clone(),
             theta: scene.theta.clone(),
@@ -334,12 +411,12 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
         .into(),
         radius: plan.radius,
         sun_elevation: scene.sun_elevation,
-        bodies: Some(bodies(scene, &plan)),
-        averaging: averaging(scene, &plan),
+        bodies: Some(bodies(scene, plan)),
+        averaging: averaging(scene, plan),
         tolerance: scene.tolerance,
         scene_toml: scene.toml.clone(),
         command_line,
-    })
+    }
 }
 
 /// The particles of a scene as bodies.
@@ -390,8 +467,7 @@ fn energy(
     let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { ENERGY_GRID };
     let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, ENERGY_GRID, spokes));
-    // An absorbing interface mixes incident and reflected power: a term of the order of k per hit.
-    if fates.residual.abs() > ENERGY_TOLERANCE + f64::from(last + 1) * index.im {
+    if !adds_up(fates.residual, index, last) {
         let wavelength_nm = wavelength * 1e9;
         return Err(SimulateError::Energy { wavelength_nm, residual: fates.residual });
     }
@@ -402,6 +478,12 @@ fn energy(
         truncated: fates.truncated,
         residual: fates.residual,
     })
+}
+
+/// Whether the light unaccounted for is rounding, for rays up to an order. An absorbing interface mixes
+/// incident and reflected power: a term of the order of k per hit.
+pub fn adds_up(residual: f64, index: Complex64, last_order: u32) -> bool {
+    residual.abs() <= ENERGY_TOLERANCE + f64::from(last_order + 1) * index.im
 }
 
 /// Trace, and make the far field ready for columns and directions, with forward diffraction joined

@@ -7,18 +7,21 @@ use std::path::{Path, PathBuf};
 
 /// Floor, rooms on it. Top floor first. The program (`main.rs`, `cli/`) is the roof: it sees the
 /// library by its name `gonio`, the library never sees it.
-const FLOORS: [(u32, &[&str]); 10] = [
-    (9, &["main", "cli"]),
-    (8, &["lee", "batch"]),
+const FLOORS: [(u32, &[&str]); 12] = [
+    (11, &["main", "cli"]),
+    (10, &["compare"]),
+    // A picture's drops are sampled as those of a Lee diagram.
+    (9, &["render"]),
+    (8, &["lee", "batch", "scatter"]),
     (7, &["simulate"]),
     (6, &["plan", "tabulate"]),
     (5, &["farfield"]),
     // The export formats that are netCDF files use the writer of hdf5.
     (4, &["series", "export"]),
-    (3, &["hdf5", "compare", "render"]),
-    (2, &["scene", "phase_table", "trace"]),
+    (3, &["hdf5"]),
+    (2, &["scene", "phase_table", "trace", "sun_disc"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution"]),
-    (0, &["math", "pending_file"]),
+    (0, &["math", "pending_file", "fault"]),
 ];
 
 /// Edges that the table forbids and the design allows, each with its reason.
@@ -363,15 +366,19 @@ fn no_circle_between_files_or_folders() {
     }
 }
 
+/// Folders that still hold more.
+const CROWDED: [&str; 1] = ["hdf5"];
+
 #[test]
 fn no_folder_holds_more_than_twelve_files() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/farfield");
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut counts: BTreeMap<PathBuf, usize> = BTreeMap::new();
     for file in sources(&src) {
         *counts.entry(file.parent().unwrap().to_path_buf()).or_default() += 1;
     }
     for (folder, count) in counts {
-        assert!(count <= 12, "{} holds {count} files", folder.display());
+        let crowded = CROWDED.iter().any(|name| folder == src.join(name));
+        assert_eq!(count > 12, crowded, "{} holds {count} files", folder.display());
     }
 }
 

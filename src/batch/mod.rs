@@ -19,6 +19,7 @@ pub use run::{Event, run};
 pub use shard::{Outcome, Shard, ShardStatus, compute};
 pub use sweep::{Axis, Sweep};
 
+use crate::fault::{Blame, FAILED, Fault, WRONG_INPUT};
 use crate::hdf5::TableError;
 use crate::scene::{SceneError, human_bytes};
 use crate::series::mean::MeanError;
@@ -54,10 +55,8 @@ pub enum BatchError {
     Io { path: PathBuf, source: std::io::Error },
 }
 
-/// Exit codes for drivers of batches. The first two are those of the whole program.
-mod exit_code {
-    pub const FAILED: u8 = 1;
-    pub const WRONG_INPUT: u8 = 2;
+/// Exit codes for drivers of batches, beside those of the whole program.
+mod code {
     /// Input or output failed.
     pub const DISK: u8 = 4;
     /// Numerical failure: it would fail again.
@@ -66,37 +65,44 @@ mod exit_code {
     pub const TEMPORARY: u8 = 75;
 }
 
-impl BatchError {
-    /// Exit code for drivers: 2 wrong input, 4 input or output failed, 5 numerical failure (do not
-    /// retry), 75 temporary (retry), 1 else.
-    pub fn exit_code(&self) -> u8 {
+impl Blame for BatchError {
+    fn fault(&self) -> Fault {
         match self {
             BatchError::Plan { .. }
             | BatchError::Invalid { .. }
             | BatchError::Memory { .. }
-            | BatchError::Scene(_) => exit_code::WRONG_INPUT,
-            BatchError::Missing { .. } => exit_code::FAILED,
+            | BatchError::Scene(_) => Fault::Input,
+            BatchError::Simulate(error) => error.fault(),
+            BatchError::Table(error) => error.fault(),
+            BatchError::Missing { .. } | BatchError::Numerical { .. } | BatchError::Io { .. } => {
+                Fault::Run
+            }
+        }
+    }
+
+    /// For drivers: 2 wrong input, 4 input or output failed, 5 numerical failure (do not retry), 75
+    /// temporary (retry), 1 else.
+    fn exit_code(&self) -> u8 {
+        match self {
+            // A disk may be cleared; elsewhere it is a table that is too large.
+            BatchError::Table(TableError::NoSpace { .. } | TableError::DiskFull { .. }) => {
+                code::TEMPORARY
+            }
+            BatchError::Table(TableError::Io { source, .. }) | BatchError::Io { source, .. }
+                if is_temporary(source) =>
+            {
+                code::TEMPORARY
+            }
+            _ if self.fault() == Fault::Input => WRONG_INPUT,
             BatchError::Numerical { .. }
             | BatchError::Simulate(
                 SimulateError::Energy { .. }
                 | SimulateError::Wrong(_)
                 | SimulateError::Mean(MeanError::NotMet { .. }),
             )
-            | BatchError::Table(TableError::Table(_)) => exit_code::NUMERICAL,
-            BatchError::Simulate(_) => exit_code::WRONG_INPUT,
-            BatchError::Table(TableError::NoSpace { .. }) => exit_code::TEMPORARY,
-            BatchError::Table(TableError::Write { message, .. })
-                if message.contains("No space left") || message.contains("quota") =>
-            {
-                exit_code::TEMPORARY
-            }
-            BatchError::Table(error) if error.is_wrong_input() => exit_code::WRONG_INPUT,
-            BatchError::Table(TableError::Io { source, .. }) | BatchError::Io { source, .. }
-                if is_temporary(source) =>
-            {
-                exit_code::TEMPORARY
-            }
-            BatchError::Table(_) | BatchError::Io { .. } => exit_code::DISK,
+            | BatchError::Table(TableError::Table(_)) => code::NUMERICAL,
+            BatchError::Table(_) | BatchError::Io { .. } => code::DISK,
+            _ => FAILED,
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{BatchError, invalid};
 use crate::hdf5::position_of;
 use crate::math::digits::to_digits;
 use crate::scene::{line_at, read_limited};
+use std::collections::HashSet;
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -79,7 +80,10 @@ impl Sweep {
         let points = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
         match points {
             Some(0) => Err(invalid("sweep", "an empty list", "at least one value per list")),
-            Some(points) if points <= MOST_POINTS => Ok(Sweep { fixed, axes }),
+            Some(points) if points <= MOST_POINTS => {
+                axes.iter().try_for_each(stands_twice)?;
+                Ok(Sweep { fixed, axes })
+            }
             _ => {
                 let accepted = format!("at most {MOST_POINTS} tables");
                 Err(invalid("sweep", "the product of its lists", &accepted))
@@ -229,10 +233,28 @@ fn zip_groups(sweep: Option<Value>) -> Result<Vec<Vec<String>>, BatchError> {
     }
 }
 
+/// Refuse a value, or a row of paired ones, that a list holds twice: the same table would be made twice,
+/// and the merged file would have two places of one name.
+fn stands_twice(axis: &Axis) -> Result<(), BatchError> {
+    let row =
+        |i: usize| axis.values.iter().map(|v| v[i].to_string()).collect::<Vec<_>>().join(", ");
+    let mut seen = HashSet::new();
+    for i in 0..axis.len() {
+        let row = row(i);
+        if !seen.insert(row.clone()) {
+            return Err(invalid(&axis.keys.join(", "), row, "each value once"));
+        }
+    }
+    Ok(())
+}
+
 /// Join the axes of these keys into one.
 fn pair(axes: &mut Vec<Axis>, group: &[String]) -> Result<(), BatchError> {
     let mut joined: Option<Axis> = None;
-    for key in group {
+    for (place, key) in group.iter().enumerate() {
+        if group[..place].contains(key) {
+            return Err(invalid("sweep.zip", key, "each key once"));
+        }
         let Some(at) = axes.iter().position(|axis| axis.keys == [key.clone()]) else {
             return Err(invalid("sweep.zip", key, "a key whose value is a list or a range"));
         };
@@ -336,6 +358,13 @@ mod tests {
     }
 
     #[test]
+    fn a_value_twice_is_refused() {
+        let twice = SWEEP.replace("[0, 20]", "[0, 20, 0]");
+        let error = Sweep::parse(&twice).unwrap_err().to_string();
+        assert!(error.contains("light.sun_elevation_deg = 0: each value once"), "{error}");
+    }
+
+    #[test]
     fn zipped_values_go_together() {
         let text = SWEEP.replace("count = 10", "count = 2");
         let zip = "[sweep]\nzip = [\"particle.radius_mm\", \"light.sun_elevation_deg\"]\n";
@@ -344,6 +373,9 @@ mod tests {
         assert_eq!(sweep.axes[1].keys, ["particle.radius_mm", "light.sun_elevation_deg"]);
         let error = Sweep::parse(&format!("{SWEEP}{zip}")).unwrap_err().to_string();
         assert!(error.contains("2 values: 10 values, as many as particle.radius_mm"), "{error}");
+        let twice = zip.replace("light.sun_elevation_deg", "particle.radius_mm");
+        let error = Sweep::parse(&format!("{text}{twice}")).unwrap_err().to_string();
+        assert!(error.contains("each key once"), "{error}");
         let error = Sweep::parse("[sweep]\nzip = [\"particle.shape\"]").unwrap_err().to_string();
         assert!(error.starts_with("sweep.zip = particle.shape"), "{error}");
     }

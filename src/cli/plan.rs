@@ -1,5 +1,6 @@
 //! `gonio plan`: what a scene would compute, by which method, what is skipped and why.
 
+use super::Result;
 use super::cpu_time::CpuTime;
 use super::scene_flags::SceneFlags;
 use clap::Args;
@@ -24,7 +25,7 @@ pub struct PlanArgs {
     flags: SceneFlags,
 }
 
-pub fn run(args: PlanArgs) -> anyhow::Result<()> {
+pub fn run(args: PlanArgs) -> Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
     let plan = Plan::new(&scene)?;
     let azimuths = plan.table_azimuths(&scene.phi);
@@ -112,7 +113,7 @@ struct Trials {
 
 impl Trials {
     /// In the middle first, then to both sides: time goes with the size parameter.
-    fn new(scene: &Scene, plan: &Plan, computed: &[f64]) -> anyhow::Result<Self> {
+    fn new(scene: &Scene, plan: &Plan, computed: &[f64]) -> Result<Self> {
         let count = scene.wavelengths.len();
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by_key(|&i| (2 * i + 1).abs_diff(count));
@@ -134,12 +135,7 @@ impl Trials {
 
     /// The plan's methods, as they were found where a range was tried, with the shares of the time at the
     /// wavelength tried first.
-    fn methods(
-        &self,
-        scene: &Scene,
-        plan: &Plan,
-        computed: &[f64],
-    ) -> anyhow::Result<Vec<PlannedRange>> {
+    fn methods(&self, scene: &Scene, plan: &Plan, computed: &[f64]) -> Result<Vec<PlannedRange>> {
         let mut methods = plan.methods(scene)?;
         let tried = if computed.len() <= TRIED[1] { computed } else { &some(computed, TRIED[1]) };
         for planned in &mut methods {
@@ -170,8 +166,8 @@ fn try_slab(
     plan: &Plan,
     computed: &[f64],
     wavelength: f64,
-) -> anyhow::Result<(f64, f64, Slab)> {
-    let time = |azimuths: Vec<f64>| -> anyhow::Result<(f64, Slab)> {
+) -> Result<(f64, f64, Slab)> {
+    let time = |azimuths: Vec<f64>| -> Result<(f64, Slab)> {
         let probe = Scene { phi: azimuths, ..scene.clone() };
         let watch = CpuTime::start();
         let slab = simulate::slab(&probe, plan, wavelength)?;

@@ -33,7 +33,9 @@ pub use srgb::{
     decode_srgb, encode_srgb, fit_gamut, srgb_to_xyz, to_srgb, wavelength_srgb, xyz_to_linear_srgb,
     xyz_to_srgb,
 };
-pub use sun::{LimbDarkening, SUN_ANGULAR_RADIUS, SunDisc};
+pub use sun::{LimbDarkening, SUN_ANGULAR_RADIUS};
+
+use crate::fault::{Blame, Fault};
 
 /// What is wrong with a request for a colour.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -58,4 +60,10 @@ pub enum ColorError {
     Gap { from_nm: f64, to_nm: f64, largest_nm: f64 },
     #[error("{wavelengths} wavelengths but {values} values: the numbers must agree")]
     Length { wavelengths: usize, values: usize },
+}
+
+impl Blame for ColorError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }

@@ -1,7 +1,6 @@
 //! The sun's disc: its size, and how its brightness falls from centre to limb.
 
 use super::tabulated::Tabulated;
-use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 /// Angular radius of the sun's disc: half of 0.533° (mean distance).
@@ -42,50 +41,6 @@ impl LimbDarkening {
         let c = (1.0 - offset * offset).max(0.0).sqrt();
         let terms = self.coefficients.iter().zip(INTEGRALS).rev();
         c * terms.fold(0.0, |sum, (&term, integral)| sum * c + term * integral)
-    }
-}
-
-/// The disc as a set of directions around its centre, in rings of equal area.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SunDisc {
-    /// Angular radius of each ring, radians.
-    pub ring: Vec<f64>,
-    /// Heliocentric cosine of each ring.
-    pub mu: Vec<f64>,
-    /// Position angles of a ring's points, radians.
-    pub turn: Vec<f64>,
-}
-
-impl SunDisc {
-    /// `rings` rings of `points` points each; a disc of angular radius `radius`.
-    pub fn new(radius: f64, rings: usize, points: usize) -> Self {
-        let middle = |i: usize| ((i as f64 + 0.5) / rings as f64).sqrt();
-        Self {
-            ring: (0..rings).map(|i| radius * middle(i)).collect(),
-            mu: (0..rings).map(|i| (1.0 - middle(i).powi(2)).sqrt()).collect(),
-            turn: (0..points).map(|j| TAU * j as f64 / points as f64).collect(),
-        }
-    }
-
-    /// Directions (θ, φ) of one ring around a centre given in the same spherical coordinates.
-    pub fn around(
-        &self,
-        ring: usize,
-        theta: f64,
-        phi: f64,
-    ) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let (sr, cr) = self.ring[ring].sin_cos();
-        let (st, ct) = theta.sin_cos();
-        // Neighbouring rings are turned against each other, so that spokes do not line up.
-        let twist = 2.399_963 * ring as f64;
-        self.turn.iter().map(move |turn| {
-            let (s, c) = (turn + twist).sin_cos();
-            // Components along the axis, away from it, and sideways.
-            let z = ct * cr - st * sr * c;
-            let x = st * cr + ct * sr * c;
-            let y = sr * s;
-            (x.hypot(y).atan2(z), phi + y.atan2(x))
-        })
     }
 }
 

@@ -1,22 +1,28 @@
 //! How far one table is from another: numbers by angular band and polarisation, shifts of maxima,
 //! energy, and a page to look at ([`page`]).
 //!
+//! Where the tables come from is no matter; [`against_mie`] computes those of spheres by every method, and
+//! [`speed`] measures what an error costs in time.
+//!
 //! Errors are taken over all wavelengths and azimuths that the tables share; curves and maxima at
 //! the first azimuth of each table and at the wavelength of the middle of the reference, which is
 //! interpolated at the angles of the other.
 
+pub mod against_mie;
 mod bands;
 mod charts;
 mod curve;
 mod energy;
 mod maxima;
 pub mod page;
+pub mod speed;
 
 pub use bands::{BANDS, BandReport};
 pub use curve::Curve;
 pub use energy::EnergyReport;
 pub use maxima::{Maxima, Maximum};
 
+use crate::fault::{Blame, Fault};
 use crate::phase_table::PhaseTable;
 use curve::nearest;
 use serde::Serialize;
@@ -26,6 +32,12 @@ use serde::Serialize;
 pub enum CompareError {
     #[error("{what}: {left} and {right} have nothing in common to compare")]
     Disjoint { what: &'static str, left: String, right: String },
+}
+
+impl Blame for CompareError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// A table with its name and what it cost.

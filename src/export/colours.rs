@@ -2,31 +2,50 @@
 
 use super::ExportError;
 use crate::color::{ColorWeights, Illuminant, Observer};
-use crate::phase_table::{Axes, PhaseTable};
+use crate::optics::Polarisation;
+use crate::phase_table::{Axes, PhaseTable, Quantity};
+
+/// Place of element 21 among the 16, row by row.
+const ELEMENT_21: usize = 4;
 
 /// Colour of scattered sunlight in any direction of a table.
 pub(super) struct Colours<'a> {
     table: &'a PhaseTable,
     weights: ColorWeights,
+    seen: Polarisation,
 }
 
 impl Colours<'_> {
     /// # Errors
-    /// When the wavelengths do not cover the visible.
-    pub(super) fn new(table: &PhaseTable) -> Result<Colours<'_>, ExportError> {
+    /// When the wavelengths do not cover the visible, or a filter is asked of a table that knows no
+    /// polarisation.
+    pub(super) fn new(table: &PhaseTable, seen: Polarisation) -> Result<Colours<'_>, ExportError> {
+        if seen != Polarisation::Total && table.header.quantity != Quantity::Mueller {
+            return Err(ExportError::Invalid {
+                field: "polarisation".into(),
+                value: format!("{seen:?}").to_lowercase(),
+                accepted: "a table with quantity = \"mueller\" has it; this one knows unpolarised \
+                           light alone (total)"
+                    .into(),
+            });
+        }
         let wavelengths = &table.header.axes.wavelength;
         let weights = ColorWeights::new(wavelengths, Illuminant::Sun, Observer::Cie1931)?;
-        Ok(Colours { table, weights })
+        Ok(Colours { table, weights, seen })
     }
 
-    /// XYZ of P in direction (θ, φ), bilinear between samples; φ wraps.
+    /// XYZ of what passes the filter of P in direction (θ, φ), bilinear between samples; φ wraps.
     pub(super) fn xyz(&self, theta: f64, phi: f64) -> [f64; 3] {
         let axes = &self.table.header.axes;
         let (i, t) = bracket(&axes.theta, theta);
         let (j, next, s) = bracket_azimuth(axes, phi);
         let above = (i + 1).min(axes.theta.len() - 1);
         self.weights.xyz(self.table.slabs.iter().map(|slab| {
-            let at = |i: usize, j: usize| f64::from(slab.values[(0, i, j)]);
+            let element = |e: usize, i: usize, j: usize| f64::from(slab.values[(e, i, j)]);
+            let at = |i: usize, j: usize| match self.seen {
+                Polarisation::Total => element(0, i, j),
+                filter => filter.passed(element(0, i, j), element(ELEMENT_21, i, j)),
+            };
             let low = at(i, j) * (1.0 - s) + at(i, next) * s;
             let high = at(above, j) * (1.0 - s) + at(above, next) * s;
             low * (1.0 - t) + high * t

@@ -8,16 +8,23 @@
 use super::ExportError;
 use super::colours::Colours;
 use crate::color::xyz_to_linear_srgb;
+use crate::optics::Polarisation;
 use crate::phase_table::PhaseTable;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// The bytes of the map, `size` × `size` pixels, `radius` in radians.
+/// The bytes of the map, `size` × `size` pixels, `radius` in radians, seen through a filter that is
+/// turned with the scattering plane of each pixel, or none.
 ///
 /// # Errors
-/// When the wavelengths do not cover the visible.
-pub fn antisolar_map(table: &PhaseTable, size: u32, radius: f64) -> Result<Vec<u8>, ExportError> {
-    let colours = Colours::new(table)?;
+/// When the wavelengths do not cover the visible, or the table lacks the polarisation asked for.
+pub fn antisolar_map(
+    table: &PhaseTable,
+    seen: Polarisation,
+    size: u32,
+    radius: f64,
+) -> Result<Vec<u8>, ExportError> {
+    let colours = Colours::new(table, seen)?;
     let middle = 0.5 * (f64::from(size) - 1.0);
     let scale = radius / (0.5 * f64::from(size));
     let pixel = |x: u32, y: u32| -> [f32; 3] {

@@ -8,7 +8,10 @@
 
 use super::average::Averaged;
 use super::notes::{notes, shape_note};
+use crate::hdf5::TableError;
+use crate::pending_file::write_whole;
 use crate::phase_table::PhaseTable;
+use std::path::Path;
 
 /// Samples that a cell's mean is taken over.
 const PER_CELL: usize = 32;
@@ -17,6 +20,31 @@ const PER_CELL: usize = 32;
 pub const PLUGIN: &str = include_str!("mitsuba_plugin.py");
 /// A scene that renders the bow.
 pub const SCENE: &str = include_str!("mitsuba_scene.py");
+
+/// The whole folder, its files in place of those of the same names; `samples` per curve of a `tabphase`.
+///
+/// # Errors
+/// A folder or a file that cannot be written.
+pub fn write(
+    table: &PhaseTable,
+    averaged: &Averaged,
+    folder: &Path,
+    samples: usize,
+) -> Result<(), TableError> {
+    let named = |path: &Path| {
+        let path = path.to_path_buf();
+        move |source| TableError::Io { path, source }
+    };
+    std::fs::create_dir_all(folder).map_err(named(folder))?;
+    let save = |name: &str, text: &str| {
+        let path = folder.join(name);
+        write_whole(&path, text.as_bytes()).map_err(named(&path))
+    };
+    save("phase.csv", &spectral_table(averaged))?;
+    save("tabphase.txt", &tabphase(table, averaged, samples))?;
+    save("gonio_phase.py", PLUGIN)?;
+    save("scene.py", SCENE)
+}
 
 /// `phase.csv`: first line the wavelengths (nm), then per line cos θ (ascending, uniform in θ) and
 /// P11 in sr⁻¹ per wavelength.

@@ -10,28 +10,30 @@
 //! colour strip take unpolarised light, element 11 alone; the map and the strip and the full CSV keep the
 //! azimuth. [`notes`] are what a user is told beside: an error that was not met, what was averaged over.
 
+mod atmosphere;
 pub mod average;
 mod colours;
 pub mod csv;
-mod database;
-pub mod eradiate;
 pub mod exr;
-mod legendre;
-pub mod libradtran;
 pub mod mitsuba;
 pub mod notes;
-pub mod sasktran2;
-pub mod size_grid;
+pub mod source;
 pub mod strip;
 
+pub use atmosphere::{eradiate, libradtran, sasktran2, size_grid};
+
 use crate::color::ColorError;
+use crate::fault::{Blame, Fault};
 use crate::hdf5::TableError;
+use std::path::PathBuf;
 
 /// What went wrong with an export.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: String, value: String, accepted: String },
+    #[error("{}: a sweep; {why}", path.display())]
+    Sweep { path: PathBuf, why: String },
     #[error("colours: {0}")]
     Color(#[from] ColorError),
     #[error("picture: {0}")]
@@ -40,13 +42,14 @@ pub enum ExportError {
     Table(#[from] TableError),
 }
 
-impl ExportError {
-    /// True where the caller's input is wrong.
-    pub fn is_wrong_input(&self) -> bool {
+impl Blame for ExportError {
+    fn fault(&self) -> Fault {
         match self {
-            ExportError::Invalid { .. } | ExportError::Color(_) => true,
-            ExportError::Table(error) => error.is_wrong_input(),
-            ExportError::Png(_) => false,
+            ExportError::Invalid { .. } | ExportError::Sweep { .. } | ExportError::Color(_) => {
+                Fault::Input
+            }
+            ExportError::Table(error) => error.fault(),
+            ExportError::Png(_) => Fault::Run,
         }
     }
 }

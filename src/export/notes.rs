@@ -3,6 +3,7 @@
 
 use super::average::{Averaged, average_departure};
 use crate::phase_table::{PhaseTable, Quantity};
+use std::f64::consts::TAU;
 
 /// Everything to be told of a table, one sentence each, for the file and for people.
 pub fn notes(table: &PhaseTable) -> Vec<String> {
@@ -22,6 +23,24 @@ pub fn notes(table: &PhaseTable) -> Vec<String> {
         notes.push(format!("the values are means over {}", averaged.join(", ")));
     }
     notes
+}
+
+/// That a number of Legendre moments is too small: the scattering matrix of a sphere of size parameter x
+/// has 2x of them and a few more; with fewer the series rings at the dark angles.
+pub fn too_few_moments(tables: &[PhaseTable], moments: u16) -> Option<String> {
+    let largest = |table: &PhaseTable| {
+        let wavelengths = table.header.axes.wavelength.iter();
+        wavelengths.map(|wavelength| TAU * table.header.radius / wavelength).fold(0.0, f64::max)
+    };
+    let size_parameter = tables.iter().map(largest).fold(0.0, f64::max);
+    let whole = 2.0 * size_parameter + 16.0;
+    (f64::from(moments) < whole).then(|| {
+        format!(
+            "{moments} Legendre moments; size parameter {size_parameter:.0} has about {whole:.0}. With \
+             fewer the series is off by tens of per cent at the dark angles (--moments; with all of \
+             them --cap-deg 0 is exact)"
+        )
+    })
 }
 
 /// What the density of a table is worth, where it is assumed.

@@ -36,3 +36,32 @@ impl Direction {
 fn sin_cos_theta(theta: f64) -> (f64, f64) {
     if theta > 0.75 * PI { ((PI - theta).sin(), -(PI - theta).cos()) } else { theta.sin_cos() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `θ̂ × φ̂ = n`, all of length 1, at the axis too; the frame is that of growing angles.
+    #[test]
+    fn frames_are_right_handed_and_follow_the_angles() {
+        const H: f64 = 1e-6;
+        for theta in [0.0, 0.3, 1.9, 0.75 * PI, 3.0, PI] {
+            for phi in [0.0, 1.2, -2.5] {
+                let d = Direction::new(theta, phi);
+                let off = d.theta_hat.cross(d.phi_hat) - d.unit;
+                assert!(off.dot(off) < 1e-30 && (d.unit.dot(d.unit) - 1.0).abs() < 1e-15);
+                let step =
+                    Direction::new(theta + H, phi).unit - Direction::new(theta - H, phi).unit;
+                let off = step * (0.5 / H) - d.theta_hat;
+                assert!(off.dot(off) < 1e-18, "{theta} {phi}: {off:?}");
+            }
+        }
+    }
+
+    /// `sin π` is zero and not 1e-16: straight backward is exactly on the axis.
+    #[test]
+    fn backward_is_on_the_axis() {
+        let d = Direction::new(PI, 0.7);
+        assert_eq!((d.unit.x, d.unit.y, d.unit.z), (0.0, 0.0, -1.0));
+    }
+}

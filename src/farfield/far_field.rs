@@ -287,3 +287,51 @@ fn scatter_by_columns(
     }
     amplitudes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns are asked for once per azimuth of either side, ascending; each direction gets its own value,
+    /// on the far side of the mirror plane with S3 and S4 turned.
+    #[test]
+    fn directions_are_grouped_into_columns() {
+        let directions =
+            [(2.0, 1.0), (0.5, -1.0), (0.3, 1.0), (1.0, PI), (0.7, 1.0 + TAU), (1.5, TAU - 0.5)];
+        let asked = std::cell::RefCell::new(Vec::new());
+        let found = scatter_by_columns(&directions, |theta, phi| {
+            assert!(theta.windows(2).all(|w| w[0] <= w[1]) && (0.0..=PI).contains(&phi));
+            asked.borrow_mut().push((phi, theta.len()));
+            let one = |&t: &f64| AmplitudeMatrix {
+                s1: t.into(),
+                s2: phi.into(),
+                s3: Complex64::from(1.0),
+                s4: Complex64::i(),
+            };
+            theta.iter().map(one).collect()
+        });
+        let mut asked = asked.into_inner();
+        // 1 + 2π folds back to 1 but for its last digit
+        asked.dedup_by(|a, b| (a.0 - b.0).abs() < 1e-12);
+        assert_eq!(asked.len(), 3, "{asked:?}");
+        for (s, (theta, phi)) in found.iter().zip(directions) {
+            let sine = phi.sin();
+            let folded = f64::acos(phi.cos());
+            assert!((s.s1.re - theta).abs() < 1e-12 && (s.s2.re - folded).abs() < 1e-12);
+            let sign = if sine < -1e-9 { -1.0 } else { 1.0 };
+            assert_eq!((s.s3.re, s.s4.im), (sign, sign), "{theta} {phi}");
+        }
+    }
+
+    #[test]
+    fn amplitudes_are_scaled_to_intensities() {
+        let s = AmplitudeMatrix { s1: Complex64::i() * 2.0, s4: 1.0.into(), ..Default::default() };
+        let scaled = scaled_to(s, 10.0);
+        assert!((scaled.s11() - 10.0).abs() < 1e-14);
+        assert!((scaled.s1 / scaled.s4 - Complex64::i() * 2.0).norm() < 1e-15);
+        // where no ray arrives light is unpolarised, and never negative
+        let dark = scaled_to(AmplitudeMatrix::default(), 4.0);
+        assert!(dark.s1 == dark.s2 && (dark.s11() - 4.0).abs() < 1e-15);
+        assert_eq!(scaled_to(AmplitudeMatrix::default(), -1.0), AmplitudeMatrix::default());
+    }
+}

@@ -90,6 +90,8 @@ pub use space::{available_bytes, estimate_bytes};
 pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter, position_of};
 pub use writer::{TableWriter, write};
 
+use crate::fault::{Blame, Fault};
+pub use crate::math::bytes::decimal_bytes;
 use crate::phase_table::InvalidTable;
 use std::path::{Path, PathBuf};
 
@@ -105,6 +107,9 @@ pub enum TableError {
     Io { path: PathBuf, source: std::io::Error },
     #[error("{}: cannot be written: {message}", path.display())]
     Write { path: PathBuf, message: String },
+    /// The same, where the disk has no room or the quota none left.
+    #[error("{}: cannot be written: {message}", path.display())]
+    DiskFull { path: PathBuf, message: String },
     #[error("{}: not a phase table: {message}", path.display())]
     Foreign { path: PathBuf, message: String },
     #[error("{}: damaged: {message}", path.display())]
@@ -115,29 +120,20 @@ pub enum TableError {
     Table(#[from] InvalidTable),
 }
 
-impl TableError {
-    /// True where the caller's input is wrong, rather than the disk or the computation.
-    pub fn is_wrong_input(&self) -> bool {
-        matches!(
-            self,
+impl Blame for TableError {
+    fn fault(&self) -> Fault {
+        match self {
             TableError::Exists { .. }
-                | TableError::NoSpace { .. }
-                | TableError::Foreign { .. }
-                | TableError::Invalid { .. }
-        )
+            | TableError::NoSpace { .. }
+            | TableError::Foreign { .. }
+            | TableError::Invalid { .. } => Fault::Input,
+            TableError::Io { .. }
+            | TableError::Write { .. }
+            | TableError::DiskFull { .. }
+            | TableError::Damaged { .. }
+            | TableError::Table(_) => Fault::Run,
+        }
     }
-}
-
-/// A number of bytes on a disk for people, in powers of 1000 as disks are labelled: `3.4 GB`.
-pub fn decimal_bytes(bytes: u64) -> String {
-    const UNITS: [&str; 7] = ["bytes", "kB", "MB", "GB", "TB", "PB", "EB"];
-    let mut value = bytes as f64;
-    let mut unit = 0;
-    while value >= 1000.0 && unit + 1 < UNITS.len() {
-        value /= 1000.0;
-        unit += 1;
-    }
-    if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
 }
 
 fn damaged(path: &Path, message: &str) -> TableError {

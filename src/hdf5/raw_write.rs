@@ -15,6 +15,7 @@ use hdf5_sys::h5f::H5F_libver_t::H5F_LIBVER_V110;
 use hdf5_sys::h5i::hid_t;
 use hdf5_sys::{h5a, h5d, h5f, h5p, h5s, h5t};
 use std::ffi::{CString, c_char, c_int, c_void};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::ptr;
 
@@ -321,7 +322,13 @@ fn done(path: &Path, status: herr_t) -> Result<(), TableError> {
 }
 
 fn failure(path: &Path) -> TableError {
-    TableError::Write { path: path.to_path_buf(), message: last_reason() }
+    // The system's reason is still the one of the call that failed inside the library.
+    let reason = std::io::Error::last_os_error().kind();
+    let (path, message) = (path.to_path_buf(), last_reason());
+    match reason {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => TableError::DiskFull { path, message },
+        _ => TableError::Write { path, message },
+    }
 }
 
 fn c_text(path: &Path, text: &str) -> Result<CString, TableError> {

@@ -1,7 +1,7 @@
 //! The average over the sun's disc about the axis: the glory and the corona.
 //!
 //! Far from the axis the curves of equal scattering angle cross the disc as straight chords, and one
-//! kernel averages along the angle alone (`sun_filter.rs`). About 0° and 180° they are circles, and
+//! kernel averages along the angle alone (`sun_disc::filter`). About 0° and 180° they are circles, and
 //! the planes of scattering turn from one side of the disc to the other. There the curve is first
 //! freed of its fast beats by the same low-pass filter, the curve continued beyond the axis as its own
 //! mirror image, and then averaged over the points of the disc, every point with its own angle
@@ -12,9 +12,9 @@
 //! plane that is asked for.
 
 use super::sampling::{AXIS_MARGIN, Band};
-use super::sun_filter::SunFilter;
 use crate::color::{LimbDarkening, SUN_ANGULAR_RADIUS};
 use crate::math::gauss_legendre;
+use crate::sun_disc::SunFilter;
 use std::f64::consts::PI;
 
 /// XYZ of the parallel part, then of the perpendicular one.
@@ -184,7 +184,7 @@ impl Smooth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::color::SunDisc;
+    use crate::sun_disc::DiscPoints;
     use std::f64::consts::TAU;
 
     /// A slow ring about the axis as a sum over directions of the disc gives it, a fast one not at
@@ -196,7 +196,7 @@ mod tests {
         let limb = LimbDarkening::at(550e-9);
         let per_turn = (highest + cutoff + transition) as usize;
         let band = Band { places: 0..1, per_turn };
-        let disc = SunDisc::new(SUN_ANGULAR_RADIUS, 60, 240);
+        let disc = DiscPoints::new(SUN_ANGULAR_RADIUS, 60, 240);
         for (axis, frequency) in [
             (Axis::Backward, 0.0),
             (Axis::Backward, 300.0),

@@ -7,22 +7,35 @@
 //! many angles and wavelengths that takes, [`SunFilter`] averages.
 
 mod about_axis;
+mod columns;
+mod diagram;
+#[cfg(feature = "hdf5")]
+pub mod file;
+mod raindrops;
 mod sampling;
-mod sun_filter;
 mod wavelengths;
 
+pub use crate::optics::Polarisation;
+pub use columns::{Bodies, columns};
+pub use diagram::{Diagram, column_exposures, srgb};
+pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::{Band, Beats, Sampling, SamplingNeed};
-pub use sun_filter::{Kernel, SunFilter};
 
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
+use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
+use crate::plan::PlanError;
+use crate::scene::SceneError;
 use crate::series::SeriesError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
+use crate::simulate::SimulateError;
+use crate::size_distribution::log_normal_sample;
+use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
 use num_complex::Complex64;
 use rayon::prelude::*;
-use sampling::{AXIS_LIMIT, GOLDEN, TRANSITION, grid};
+use sampling::{AXIS_LIMIT, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
@@ -34,8 +47,28 @@ pub enum LeeError {
     Medium(#[from] MediumError),
     #[error(transparent)]
     Series(#[from] SeriesError),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
     #[error("{field} = {value}: {accepted}")]
     Invalid { field: &'static str, value: String, accepted: &'static str },
+}
+
+impl Blame for LeeError {
+    fn fault(&self) -> Fault {
+        match self {
+            LeeError::Series(error) => error.fault(),
+            LeeError::Simulate(error) => error.fault(),
+            LeeError::Color(_)
+            | LeeError::Medium(_)
+            | LeeError::Scene(_)
+            | LeeError::Plan(_)
+            | LeeError::Invalid { .. } => Fault::Input,
+        }
+    }
 }
 
 /// Intensities of one drop in directions: outgoing light polarised parallel and perpendicular to
@@ -58,23 +91,6 @@ pub struct Request {
     pub observer: Observer,
     /// Factor on the numbers of angles and wavelengths; 1 is meant for ΔE below 1.
     pub fineness: f64,
-}
-
-/// The diagram: XYZ of the differential cross-section over the geometrical one, sr⁻¹.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Diagram {
-    pub radii: Vec<f64>,
-    pub theta: Vec<f64>,
-    /// Per radius and angle: XYZ of the parallel and of the perpendicular part.
-    pub xyz: Vec<Vec<[[f64; 3]; 2]>>,
-}
-
-/// Light that an observer with or without a filter sees.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Polarisation {
-    Total,
-    Parallel,
-    Perpendicular,
 }
 
 /// A drop at one wavelength.
@@ -193,7 +209,7 @@ where
                 let drop = |i: usize| {
                     let wavelength = sampling.wavelengths[i];
                     let index = request.medium.index(wavelength)?;
-                    let radius = size_of(radius, request.size_spread, i);
+                    let radius = log_normal_sample(radius, request.size_spread, i);
                     Ok(Drop { radius, wavelength, index })
                 };
                 let drops: Vec<Drop> =
@@ -269,50 +285,6 @@ impl Request {
             fineness: self.fineness,
         }
     }
-}
-
-/// The size of the i-th sample of a log-normal distribution about `radius`. Samples are equally
-/// likely and spread by the golden ratio over the quantiles, so that neighbouring wavelengths see
-/// different sizes and their mean sees all.
-fn size_of(radius: f64, spread: f64, i: usize) -> f64 {
-    if spread <= 0.0 {
-        return radius;
-    }
-    let quantile = ((i as f64 + 0.5) * GOLDEN).fract().clamp(1e-4, 1.0 - 1e-4);
-    radius * (spread * normal_quantile(quantile)).exp()
-}
-
-/// Inverse of the normal distribution by bisection of the error function.
-fn normal_quantile(quantile: f64) -> f64 {
-    let (mut low, mut high) = (-6.0, 6.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        let below = 0.5 * libm::erfc(-middle / std::f64::consts::SQRT_2);
-        if below < quantile { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
-impl Diagram {
-    /// XYZ as seen with or without a filter, per radius and angle.
-    pub fn seen(&self, polarisation: Polarisation) -> Vec<Vec<[f64; 3]>> {
-        let pick = |[parallel, perpendicular]: &[[f64; 3]; 2]| match polarisation {
-            Polarisation::Parallel => *parallel,
-            Polarisation::Perpendicular => *perpendicular,
-            Polarisation::Total => std::array::from_fn(|c| parallel[c] + perpendicular[c]),
-        };
-        self.xyz.iter().map(|column| column.iter().map(pick).collect()).collect()
-    }
-}
-
-/// Exposure of each column such that its brightest angle has the luminance `peak`.
-pub fn column_exposures(seen: &[Vec<[f64; 3]>], peak: f64) -> Vec<f64> {
-    seen.iter()
-        .map(|column| {
-            let brightest = column.iter().fold(0.0_f64, |m, xyz| m.max(xyz[1]));
-            if brightest > 0.0 { peak / brightest } else { 0.0 }
-        })
-        .collect()
 }
 
 fn check(request: &Request, beats: Beats) -> Result<(), LeeError> {

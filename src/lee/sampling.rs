@@ -4,7 +4,7 @@
 //! Two rays that reach the same angle from impact parameters `b₁`, `b₂` (in radii) beat with the
 //! frequency `x (b₁ - b₂)` in angle and with the difference of their paths in wavenumber.
 //! - **Angles.** The sun's disc lets slow beats pass and damps fast ones; beyond a cut-off the
-//!   colours average them out as well, so that the filter of [`SunFilter`](super::SunFilter) drops
+//!   colours average them out as well, so that the filter of [`SunFilter`](crate::sun_disc::SunFilter) drops
 //!   them. The intensity of a drop holds no frequency above `2x` (partial waves end near n = x). A
 //!   grid of step `2π / (2x + cut-off + transition)` therefore gives the average without aliasing.
 //! - **Wavelengths** stand unevenly, most densely where the eye weighs most (`wavelengths.rs`); an
@@ -18,6 +18,7 @@
 
 use super::wavelengths::{BAND, nodes};
 use crate::color::SUN_ANGULAR_RADIUS;
+use crate::math::GOLDEN;
 use crate::series::even_angles::AngleSums;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -56,8 +57,6 @@ const LONGEST_PATH: f64 = 5.5;
 const PER_BEAT: f64 = 1.5;
 /// Wavelengths that share one grid of angles and one limb darkening.
 const BANDS: usize = 8;
-/// The golden ratio's fraction.
-pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Which waves beat with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

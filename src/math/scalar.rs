@@ -82,3 +82,30 @@ impl Scalar for Complex64 {
         z * self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a formula over scalars gives, and its size and parts.
+    fn found<T: Scalar>(x: f64) -> [f64; 3] {
+        let value = (T::real(x) * 3.0 - 1.0).root() / (T::real(x) + 2.0);
+        let scaled = T::real(x).scale(Complex64::new(1.0, 2.0));
+        [value.re(), value.size(), scaled.im]
+    }
+
+    #[test]
+    fn both_fields_agree_on_real_numbers() {
+        let (real, complex) = (found::<f64>(0.7), found::<Complex64>(0.7));
+        for (r, c) in real.iter().zip(complex) {
+            assert!((r - c).abs() < 1e-15, "{real:?} {complex:?}");
+        }
+        assert_eq!(real[2], 1.4);
+    }
+
+    #[test]
+    fn the_root_is_the_principal_one() {
+        assert_eq!(Complex64::real(-4.0).root(), Complex64::new(0.0, 2.0));
+        assert!(Complex64::new(-1.0, -1e-12).root().im < 0.0);
+    }
+}

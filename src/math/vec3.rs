@@ -93,3 +93,40 @@ impl<T: Scalar> Mul<T> for Vec3<T> {
         Self { x: self.x * f, y: self.y * f, z: self.z * f }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_obey_their_identities() {
+        let (a, b, c) =
+            (Vec3::new(1.0, -2.0, 0.5), Vec3::new(0.3, 0.7, -1.1), Vec3::new(-0.4, 2.0, 1.5));
+        assert_eq!(
+            Vec3::new(1.0, 0.0, 0.0).cross(Vec3::new(0.0, 1.0, 0.0)),
+            Vec3::new(0.0, 0.0, 1.0)
+        );
+        let (left, right) = (a.cross(b.cross(c)), b * a.dot(c) - c * a.dot(b));
+        assert!((left - right).dot(left - right) < 1e-28);
+        assert!((a.dot(b.cross(c)) - c.dot(a.cross(b))).abs() < 1e-14);
+    }
+
+    /// The product is bilinear: null vectors are their own normals, and a unit vector has square 1.
+    #[test]
+    fn complex_products_do_not_conjugate() {
+        let (one, i) = (Complex64::from(1.0), Complex64::i());
+        let null = Vec3::new(one, i, Complex64::default());
+        assert_eq!(null.dot(null), Complex64::default());
+        let unit = Vec3::new(one * 2.0, i, Complex64::new(0.3, -0.2)).normalized();
+        assert!((unit.dot(unit) - 1.0).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_field_is_read_as_it_was_written() {
+        let axis = Vec3::new(0.6, 0.0, -0.8);
+        let amplitude = Complex64::new(0.3, -1.2);
+        let field = axis.carry(amplitude);
+        assert!((axis.project(field) - amplitude).norm() < 1e-15);
+        assert!(Vec3::new(0.8, 0.0, 0.6).project(field).norm() < 1e-15);
+    }
+}

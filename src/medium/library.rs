@@ -2,10 +2,17 @@
 //!
 //! All data are compiled in; `data/media/README.md` lists sources and licences.
 
-use super::band_model::BandModel;
-use super::kramers_kronig::{Absorption, Tails};
-use super::table::Table;
-use super::{Daimon, Dye, Formula, Material, Medium, MediumError, Unit, csv_table, invalid};
+use crate::medium::data::material::Material;
+use crate::medium::data::table::Table;
+use crate::medium::data::unit::Unit;
+use crate::medium::dispersion::band_model::BandModel;
+use crate::medium::dispersion::formula::Formula;
+use crate::medium::error::{MediumError, invalid};
+use crate::medium::kinds::Medium;
+use crate::medium::kramers_kronig::{Absorption, Tails};
+use crate::medium::read::csv_table;
+use crate::medium::solution::Dye;
+use crate::medium::water::daimon::Daimon;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};

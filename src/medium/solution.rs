@@ -5,8 +5,9 @@
 //! leave Δn without their smooth background). The host is taken as undisturbed: good for dilute
 //! solutions, where the dye displaces little of it.
 
-use super::kramers_kronig::Absorption;
-use super::{Medium, MediumError, check_range, invalid};
+use crate::medium::error::{MediumError, check_range, invalid};
+use crate::medium::kinds::Medium;
+use crate::medium::kramers_kronig::Absorption;
 use num_complex::Complex64;
 
 /// A dye at fraction 1.

@@ -85,3 +85,55 @@ impl Mul<Complex64> for AmplitudeMatrix {
         Self { s1: self.s1 * f, s2: self.s2 * f, s3: self.s3 * f, s4: self.s4 * f }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn matrix() -> AmplitudeMatrix {
+        let c = Complex64::new;
+        AmplitudeMatrix { s1: c(1.0, 0.4), s2: c(-0.3, 2.0), s3: c(0.5, -0.7), s4: c(0.2, 1.1) }
+    }
+
+    /// Stokes parameters I, Q, U, V after Bohren & Huffman 1983, eq. 2.80.
+    fn stokes([parallel, perpendicular]: [Complex64; 2]) -> [f64; 4] {
+        let (i, q) = (parallel.norm_sqr(), perpendicular.norm_sqr());
+        let cross = parallel * perpendicular.conj();
+        [i + q, i - q, 2.0 * cross.re, -2.0 * cross.im]
+    }
+
+    /// Every column of the Mueller matrix: the Stokes vector of the scattered field is the matrix times
+    /// that of the incident one.
+    #[test]
+    fn the_mueller_matrix_does_to_stokes_what_amplitudes_do_to_fields() {
+        let s = matrix();
+        let mueller = s.mueller();
+        let c = Complex64::new;
+        for field in [
+            [c(1.0, 0.0), c(0.0, 0.0)],
+            [c(0.0, 0.0), c(1.0, 0.0)],
+            [c(1.0, 0.0), c(1.0, 0.0)],
+            [c(1.0, 0.0), c(0.0, 1.0)],
+            [c(0.3, -0.8), c(1.2, 0.5)],
+        ] {
+            let [a, b] = field;
+            let out = stokes([s.s2 * a + s.s3 * b, s.s4 * a + s.s1 * b]);
+            let incident = stokes(field);
+            for (row, wanted) in mueller.iter().zip(out) {
+                let found: f64 = row.iter().zip(incident).map(|(m, i)| m * i).sum();
+                assert!((found - wanted).abs() < 1e-14, "{field:?}: {found} {wanted}");
+            }
+        }
+        assert_eq!(mueller[0][0], s.s11());
+    }
+
+    #[test]
+    fn arithmetic_is_element_by_element() {
+        let (s, i) = (matrix(), Complex64::i());
+        let mut sum = s + s * i;
+        sum += s;
+        let expected = s * Complex64::new(2.0, 1.0);
+        assert!((sum - expected).s11() < 1e-30);
+        assert!((sum.s3 - s.s3 * Complex64::new(2.0, 1.0)).norm() < 1e-15);
+    }
+}

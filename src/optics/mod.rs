@@ -24,9 +24,13 @@
 //!   2 primary bow, 3 secondary bow. Forward diffraction is kept apart from `p = 0`.
 
 mod amplitude;
+mod descartes;
 mod fresnel;
 mod grazing;
+mod polarisation;
 
 pub use amplitude::AmplitudeMatrix;
+pub use descartes::rainbow_angle;
 pub use fresnel::{Fresnel, curved_from_inside, curved_from_outside, fresnel};
 pub use grazing::Grazing;
+pub use polarisation::Polarisation;

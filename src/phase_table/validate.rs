@@ -3,6 +3,7 @@
 //! that is to be written and one that was read.
 
 use super::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
+use crate::fault::{Blame, Fault};
 use std::f64::consts::{PI, TAU};
 
 /// How far an element may exceed S11, relative: rounding to `f32` of both.
@@ -30,6 +31,12 @@ pub struct InvalidTable {
     pub accepted: String,
 }
 
+impl Blame for InvalidTable {
+    fn fault(&self) -> Fault {
+        Fault::Run
+    }
+}
+
 pub(super) fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
     InvalidTable { field: field.into(), value: value.to_string(), accepted: accepted.into() }
 }
@@ -44,19 +51,30 @@ impl Axes {
         if let Some(bad) = self.wavelength.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
             return Err(invalid("wavelength", bad, "a positive length in metres"));
         }
-        ascending("theta", &self.theta, PI)?;
-        ascending("phi", &self.phi, TAU)
+        ascending("theta", &self.theta, 0.0..=PI)?;
+        ascending("phi", &self.phi, -TAU..=TAU)?;
+        let span = self.phi[self.phi.len() - 1] - self.phi[0];
+        if span > TAU * (1.0 + 1e-9) {
+            return Err(invalid("phi", span, "azimuths over one turn at most"));
+        }
+        Ok(())
     }
 }
 
-/// Angles finite, strictly ascending, within [0, most] up to rounding.
-fn ascending(field: &str, angles: &[f64], most: f64) -> Result<(), InvalidTable> {
+/// Angles finite, strictly ascending, within a range up to rounding.
+fn ascending(
+    field: &str,
+    angles: &[f64],
+    range: std::ops::RangeInclusive<f64>,
+) -> Result<(), InvalidTable> {
+    let (least, most) = (*range.start(), *range.end());
     if angles.is_empty() {
         return Err(invalid(field, "none", "at least one angle"));
     }
-    let within = |angle: f64| (-1e-9..=most * (1.0 + 1e-9)).contains(&angle);
+    let rounding = 1e-9 * most;
+    let within = |angle: f64| (least - rounding..=most + rounding).contains(&angle);
     if let Some(bad) = angles.iter().find(|angle| !within(**angle)) {
-        let accepted = format!("angles from 0 to {most:.4} radians");
+        let accepted = format!("angles from {least:.4} to {most:.4} radians");
         return Err(invalid(field, bad, &accepted));
     }
     match angles.windows(2).find(|pair| pair[0] >= pair[1]) {
@@ -134,7 +152,7 @@ impl Slab {
         if !(self.index.is_finite() && self.index.re > 0.0 && self.index.im >= 0.0) {
             return Err(invalid("refractive index", self.index, "n + ik with n > 0 and k ≥ 0"));
         }
-        self.validate_sections()?;
+        self.validate_sections(header)?;
         within("asymmetry", self.asymmetry, -1.0..=1.0)?;
         within("peak_share", self.peak_share, 0.0..=1.0)?;
         // Debye terms that are left out may take light away by interference.
@@ -170,14 +188,17 @@ impl Slab {
         let slack = NORMALISATION_TOLERANCE + rounding + part;
         let off = (sum - expected).abs();
         if header.axes.cover_sphere() && (off.is_nan() || off > slack) {
-            let accepted = format!("{expected:.6} ± {slack} at {nm} nm");
+            let accepted = format!(
+                "{expected:.6} ± {slack} at {nm} nm; where the samples are too few to add up, take more \
+                 scattering angles, or forward_peak = \"point\", which leaves the sum open"
+            );
             return Err(invalid("sum of P times solid angle", sum, &accepted));
         }
         Ok(())
     }
 
     /// Cross-sections: positive, in balance, and as the wave straight ahead says.
-    fn validate_sections(&self) -> Result<(), InvalidTable> {
+    fn validate_sections(&self, header: &TableHeader) -> Result<(), InvalidTable> {
         let nm = self.wavelength * 1e9;
         let (scattering, extinction) =
             (self.scattering_cross_section, self.extinction_cross_section);
@@ -201,13 +222,17 @@ impl Slab {
                 format!("scattering {scattering:e} + absorption {absorption:e} m² at {nm} nm");
             return Err(invalid("extinction_cross_section", format!("{extinction:e}"), &accepted));
         }
+        // Of a mean the powers are as good as it says; its amplitudes are another sum.
+        let averaging = &header.averaging;
+        let mean = averaging.sizes || averaging.bandwidth > 0.0;
+        let stated = if mean && self.error_estimate > 0.0 { self.error_estimate } else { 0.0 };
+        let part = FORWARD_TOLERANCE + stated;
         match self.forward_extinction {
             Some(forward)
-                if forward.is_nan()
-                    || (extinction - forward).abs() > FORWARD_TOLERANCE * forward.abs() =>
+                if forward.is_nan() || (extinction - forward).abs() > part * forward.abs() =>
             {
                 let accepted = format!(
-                    "{forward:e} m² ± {FORWARD_TOLERANCE} of it, by the optical theorem on the \
+                    "{forward:e} m² ± {part} of it, by the optical theorem on the \
                      amplitude straight ahead at {nm} nm"
                 );
                 Err(invalid("extinction_cross_section", format!("{extinction:e}"), &accepted))

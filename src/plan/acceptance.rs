@@ -1,6 +1,7 @@
 //! Which particles rays are accepted for, and what is said to those they are not.
 
 use crate::farfield::assignment::Thresholds;
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::shape::ShapeError;
 use num_complex::Complex64;
@@ -33,6 +34,12 @@ pub enum PlanError {
          one wave: extinction by rays is {SOFT_MISS} off); use --method mie (method = \"mie\" in a scene) for a sphere"
     )]
     Soft { index: String, place: String, size_parameter: f64, phase_shift: f64, limit: f64 },
+}
+
+impl Blame for PlanError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 const SOFT_MISS: &str = "13 % at 4, 87 % at 2";

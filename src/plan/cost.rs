@@ -7,6 +7,7 @@
 
 use super::{Engine, Plan, Symmetry};
 use crate::scene::Scene;
+use crate::shape::Body;
 use std::f64::consts::TAU;
 
 /// The program, its libraries and threads.
@@ -24,17 +25,26 @@ const PREVIEW_DIRECTION: f64 = 24.0;
 const PATCH: f64 = 840.0;
 /// Spokes of the grid of patches on the sphere that the stated error is measured on.
 const CHECK_SPOKES: usize = 96;
-/// Meridians of an order at all its azimuths.
-const MERIDIANS: f64 = 2e6;
+/// Meridians of an order at all its azimuths; what is added in drops whose rays tangle, from the radius
+/// at which it begins over a range of radii; and the share that pieces of memory left between the
+/// wavelengths add, complete at so many of them.
+const MERIDIANS: f64 = 4.5e6;
+const TANGLED: f64 = 5e6;
+const TANGLED_FROM: f64 = 0.4e-3;
+const TANGLED_OVER: f64 = 0.9e-3;
+const LEFT_BETWEEN: f64 = 0.5;
+const LEFT_AFTER: f64 = 7.0;
 /// Partial waves: samples and potentials, per squared size parameter.
 const PARTIAL_WAVES: f64 = 420.0;
 /// Spheres: coefficients per size parameter; means over sizes: sums on all threads.
 const SERIES_SIZE: f64 = 1000.0;
 const MEANS: f64 = 75e6;
 
-/// Processor seconds to compress and write one value, to draw the preview, and to start.
+/// Processor seconds to compress and write one value, to start and draw an empty preview, and to draw
+/// one of its directions.
 const WRITE_VALUE: f64 = 2.2e-8;
-const DRAW: f64 = 0.25;
+const DRAW: f64 = 0.03;
+const DRAW_DIRECTION: f64 = 5e-7;
 
 /// What a table takes beside its physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +81,11 @@ impl Plan {
         let preview =
             4.0 * PREVIEW_VALUES.min(directions * wavelengths) + PREVIEW_DIRECTION * directions;
         let memory = PROGRAM + slabs + lines + columns + preview + self.method_memory(scene);
-        Cost { memory: memory as u64, writing_seconds: WRITE_VALUE * values * wavelengths + DRAW }
+        let drawing = DRAW + DRAW_DIRECTION * directions;
+        Cost {
+            memory: memory as u64,
+            writing_seconds: WRITE_VALUE * values * wavelengths + drawing,
+        }
     }
 
     /// What the method holds for one wavelength.
@@ -84,9 +98,19 @@ impl Plan {
                 let spokes = self.spokes + CHECK_SPOKES.min(self.spokes);
                 PATCH * (self.rings * spokes) as f64 * orders
             }
-            Engine::Meridians if self.symmetry == Symmetry::Rotational => 0.1 * MERIDIANS * orders,
+            Engine::Meridians if self.symmetry == Symmetry::Rotational => 0.05 * MERIDIANS * orders,
             Engine::Meridians if x < self.thresholds.partial_waves_below => PARTIAL_WAVES * x * x,
-            Engine::Meridians => MERIDIANS * orders,
+            Engine::Meridians => {
+                let tangled = match &self.shape.body {
+                    Body::Raindrop(_) => {
+                        TANGLED * ((self.radius - TANGLED_FROM) / TANGLED_OVER).clamp(0.0, 1.0)
+                    }
+                    _ => 0.0,
+                };
+                let others = scene.wavelengths.len().saturating_sub(1) as f64;
+                let left = 1.0 + LEFT_BETWEEN * (others / (LEFT_AFTER - 1.0)).min(1.0);
+                (MERIDIANS + tangled) * orders * left
+            }
             Engine::LorenzMie | Engine::Debye => {
                 let many = scene.size_distribution.is_some() || scene.bandwidth > 0.0;
                 SERIES_SIZE * x + if many { MEANS } else { 0.0 }

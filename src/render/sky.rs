@@ -11,9 +11,10 @@
 use super::camera::Camera;
 use super::{Picture, RenderError, Tristimulus};
 use crate::color::{
-    Illuminant, Observer, SUN_ANGULAR_RADIUS, SunDisc, encode_srgb, fit_gamut, xyz_to_linear_srgb,
+    Illuminant, Observer, SUN_ANGULAR_RADIUS, encode_srgb, fit_gamut, xyz_to_linear_srgb,
 };
 use crate::phase_table::{PhaseTable, Quantity};
+use crate::sun_disc::DiscPoints;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -65,7 +66,7 @@ struct Mixture {
     round: Vec<Kind>,
     /// The others, per ring of the disc.
     rings: Vec<Vec<Kind>>,
-    disc: SunDisc,
+    disc: DiscPoints,
 }
 
 /// One kind of drop: its share, and XYZ of I or of I, Q, U.
@@ -228,7 +229,7 @@ fn filter_angle(
 impl Mixture {
     fn new(sky: &Sky, drops: &[Drops<'_>]) -> Result<Self, RenderError> {
         let (rings, radius) = if sky.sun_disc { (RINGS, SUN_ANGULAR_RADIUS) } else { (1, 0.0) };
-        let disc = SunDisc::new(radius, rings, if sky.sun_disc { POINTS } else { 1 });
+        let disc = DiscPoints::new(radius, rings, if sky.sun_disc { POINTS } else { 1 });
         let cross_section = |table: &PhaseTable| {
             let sum: f64 = table.slabs.iter().map(|s| s.scattering_cross_section).sum();
             sum / table.slabs.len() as f64

@@ -1,9 +1,9 @@
 //! From spectra per direction to XYZ per direction.
 
 use super::directions::DirectionGrid;
-use super::smooth_over_sun;
-use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer, SunDisc};
+use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::phase_table::{Axes, PhaseTable};
+use crate::sun_disc::{DiscPoints, smooth_over_sun};
 use rayon::prelude::*;
 
 /// XYZ (in sr⁻¹: 1 would be the illuminant's white) over the directions of a table.
@@ -81,7 +81,7 @@ impl Tristimulus {
 
     /// Mean over the directions of the sun's disc around (θ, φ), rings weighted alike (build one
     /// per ring with `mu` for limb darkening). Directions beyond the table are left out.
-    pub fn over_disc(&self, disc: &SunDisc, theta: f64, phi: f64) -> [f64; 3] {
+    pub fn over_disc(&self, disc: &DiscPoints, theta: f64, phi: f64) -> [f64; 3] {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
         for ring in 0..disc.ring.len() {
             for (t, p) in disc.around(ring, theta, phi) {

@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, said so that it can be put right: where, which value, what is
 //! accepted.
 
+use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use std::fmt;
 use std::path::PathBuf;
@@ -59,6 +60,12 @@ pub enum SceneError {
     Missing { place: Box<Place>, accepted: String },
     #[error("{place}: {source}")]
     Medium { place: Box<Place>, source: MediumError },
+}
+
+impl Blame for SceneError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 impl SceneError {

@@ -1,9 +1,12 @@
 //! `SceneFile`: the keys of a scene as they are written, none of them checked yet.
 //!
-//! Every key is optional here, because a flag of the same name may give it instead;
+//! Each key stands here once: as a key of the file, as a field, as a flag of the same name, and in the
+//! list of what is known. Every key is optional, because a flag may give what the file does not;
 //! [`SceneFile::overridden_by`] lays flags over a file.
 
 use super::choice::{Choice, ShapeName};
+#[cfg(feature = "cli")]
+use super::flags::{index, medium, word};
 use super::grid::Grid;
 use super::sizes::SizeKeys;
 use super::{Diffraction, Method, Orders, SunDisc};
@@ -14,132 +17,153 @@ use serde::{Deserialize, Serialize};
 
 /// A scene as written: one field per section.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::Args))]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneFile {
+    #[cfg_attr(feature = "cli", command(flatten))]
     pub particle: ParticleKeys,
+    #[cfg_attr(feature = "cli", command(flatten))]
     pub light: LightKeys,
+    #[cfg_attr(feature = "cli", command(flatten))]
     pub table: TableKeys,
+    #[cfg_attr(feature = "cli", command(flatten))]
     pub model: ModelKeys,
 }
 
-/// `[particle]`: what scatters. Exactly one of the three sizes, that of the sphere of equal
-/// volume, or a distribution of sizes is to be given.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ParticleKeys {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shape: Option<Choice<ShapeName>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radius_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub radius_um: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub diameter_mm: Option<f64>,
-    /// Many spheres in place of one: takes the place of the sizes above.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub size_distribution: Option<SizeKeys>,
-    /// Vertical over horizontal diameter of a spheroid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axis_ratio: Option<f64>,
-    /// Model of a raindrop's shape.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub model: Option<Choice<RaindropModel>>,
-    /// Temperature of the medium where its index depends on it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub temperature_c: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub medium: Option<MediumSpec>,
-    /// Density of the medium, where the library does not know it or it is another.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub density_kg_m3: Option<f64>,
+/// The keys of one section: of each its words for `--help`, its name, its kind, and how its flag is read;
+/// then fields that are flags only.
+macro_rules! section {
+    (
+        $(#[doc = $about:literal])*
+        $name:ident, $heading:literal {
+            $( $(#[doc = $doc:literal])* $key:ident: $kind:ty [$($flag:tt)*] )*
+        } $(flags {
+            $( $(#[doc = $only_doc:literal])* $only:ident: $only_kind:ty [$($only_flag:tt)*] )*
+        })?
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[cfg_attr(feature = "cli", derive(clap::Args), command(next_help_heading = $heading))]
+        #[serde(deny_unknown_fields, default)]
+        pub struct $name {
+            $(
+                $(#[doc = $doc])*
+                #[serde(skip_serializing_if = "Option::is_none")]
+                #[cfg_attr(feature = "cli", arg(long, $($flag)*))]
+                pub $key: Option<$kind>,
+            )*
+            $($(
+                $(#[doc = $only_doc])*
+                #[serde(skip)]
+                #[cfg_attr(feature = "cli", arg(long, $($only_flag)*))]
+                pub $only: Option<$only_kind>,
+            )*)?
+        }
+
+        impl $name {
+            const KEYS: &'static [&'static str] = &[$(stringify!($key)),*];
+
+            /// With everything of `below` that is not given here.
+            fn over(self, below: Self) -> Self {
+                Self {
+                    $($key: self.$key.or(below.$key),)*
+                    $($($only: self.$only.or(below.$only),)*)?
+                }
+            }
+        }
+    };
 }
 
-/// `[light]`: what shines on it.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LightKeys {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sun_elevation_deg: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wavelengths_nm: Option<Grid>,
-    /// Each wavelength stands for a band of this full width at half maximum.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bandwidth_nm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sun_disc: Option<Choice<SunDisc>>,
+section! {
+    /// `[particle]`: what scatters. Exactly one of the three sizes, that of the sphere of equal
+    /// volume, or a distribution of sizes is to be given.
+    ParticleKeys, "Particle" {
+        /// Kind of particle
+        shape: Choice<ShapeName> [value_parser = word::<ShapeName>()]
+        /// Radius of the sphere of equal volume
+        radius_mm: f64 [value_name = "MM", allow_negative_numbers = true]
+        /// The same in micrometres
+        radius_um: f64 [value_name = "UM", allow_negative_numbers = true,
+            conflicts_with = "radius_mm"]
+        /// Diameter of the sphere of equal volume
+        diameter_mm: f64 [value_name = "MM", allow_negative_numbers = true,
+            conflicts_with_all = ["radius_mm", "radius_um"]]
+        /// Many spheres: kind = "gamma", effective_radius_um = 10, effective_variance = 0.1
+        size_distribution: SizeKeys [value_name = "TABLE",
+            conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"]]
+        /// Vertical over horizontal diameter of a spheroid
+        axis_ratio: f64 [value_name = "RATIO", allow_negative_numbers = true]
+        /// Shape model of a raindrop
+        model: Choice<RaindropModel> [value_parser = word::<RaindropModel>()]
+        /// Temperature of the medium
+        temperature_c: f64 [value_name = "C", allow_negative_numbers = true]
+        /// Medium of the particle: a name, a file, or a table as in a scene file
+        medium: MediumSpec [value_name = "NAME", value_parser = medium]
+        /// Density of the medium, for whatever is told per mass (default: the library's)
+        density_kg_m3: f64 [value_name = "KG_M3", allow_negative_numbers = true]
+    } flags {
+        /// Constant index n+ik of the particle in place of a medium
+        index: [f64; 2] [value_name = "N[+K]", value_parser = index, conflicts_with = "medium"]
+    }
 }
 
-/// `[table]`: what is tabulated, and where.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct TableKeys {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub quantity: Option<Choice<Quantity>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub forward_peak: Option<Choice<ForwardPeak>>,
-    /// Keep this many bits of the mantissa of each value, for smaller files; absent: all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bit_round: Option<u8>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub theta_deg: Option<Grid>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub azimuth_deg: Option<Grid>,
+section! {
+    /// `[light]`: what shines on it.
+    LightKeys, "Light" {
+        /// Sun above the horizon
+        sun_elevation_deg: f64 [value_name = "DEG", allow_negative_numbers = true]
+        /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
+        wavelengths_nm: Grid [value_name = "NM", allow_hyphen_values = true]
+        /// Full width at half maximum of the band that each wavelength stands for (spheres)
+        bandwidth_nm: f64 [value_name = "NM", allow_negative_numbers = true]
+        /// Mean over the sun's disc (spheres)
+        sun_disc: Choice<SunDisc> [value_parser = word::<SunDisc>()]
+    }
 }
 
-/// `[model]`: how it is computed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ModelKeys {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub method: Option<Choice<Method>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub interference: Option<bool>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub diffraction: Option<Choice<Diffraction>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub orders: Option<Orders>,
-    /// Relative error asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f64>,
-    /// Rays across the silhouette; absent: chosen from the tolerance.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rays_across: Option<u32>,
-    /// A mean that does not meet the tolerance makes a table that says so, in place of a failure.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub allow_unmet_tolerance: Option<bool>,
+section! {
+    /// `[table]`: what is tabulated, and where.
+    TableKeys, "Table" {
+        /// Unpolarised phase function, or all Mueller elements
+        quantity: Choice<Quantity> [value_parser = word::<Quantity>()]
+        /// How the forward diffraction peak enters
+        forward_peak: Choice<ForwardPeak> [value_parser = word::<ForwardPeak>()]
+        /// Keep so many bits of each value's mantissa, for a smaller file
+        bit_round: u8 [value_name = "BITS"]
+        /// Scattering angles: FROM:TO:COUNT or A,B,C
+        theta_deg: Grid [value_name = "DEG", allow_hyphen_values = true]
+        /// Azimuths: FROM:TO:COUNT or A,B,C
+        azimuth_deg: Grid [value_name = "DEG", allow_hyphen_values = true]
+    }
 }
 
-/// Known keys by section, in the order of the structs above (a test compares the two).
+section! {
+    /// `[model]`: how it is computed.
+    ModelKeys, "Model" {
+        /// Rays, an exact series for spheres, or whichever suits
+        method: Choice<Method> [value_parser = word::<Method>()]
+        /// Add rays with their phases
+        interference: bool [value_name = "true|false"]
+        /// Diffraction in the ray method
+        diffraction: Choice<Diffraction> [value_parser = word::<Diffraction>()]
+        /// `auto`, or a list such as 0,1,2
+        orders: Orders [value_name = "LIST", allow_hyphen_values = true]
+        /// Relative error asked for
+        tolerance: f64 [value_name = "ERROR", allow_negative_numbers = true]
+        /// Rays across the silhouette (default: chosen from the tolerance)
+        rays_across: u32 [value_name = "N"]
+        /// Have a mean that misses the tolerance marked in the table, in place of a failure
+        allow_unmet_tolerance: bool [num_args = 0..=1, default_missing_value = "true",
+            value_name = "true|false"]
+    }
+}
+
+/// Known keys by section.
 pub(super) const KEYS: [(&str, &[&str]); 4] = [
-    (
-        "particle",
-        &[
-            "shape",
-            "radius_mm",
-            "radius_um",
-            "diameter_mm",
-            "size_distribution",
-            "axis_ratio",
-            "model",
-            "temperature_c",
-            "medium",
-            "density_kg_m3",
-        ],
-    ),
-    ("light", &["sun_elevation_deg", "wavelengths_nm", "bandwidth_nm", "sun_disc"]),
-    ("table", &["quantity", "forward_peak", "bit_round", "theta_deg", "azimuth_deg"]),
-    (
-        "model",
-        &[
-            "method",
-            "interference",
-            "diffraction",
-            "orders",
-            "tolerance",
-            "rays_across",
-            "allow_unmet_tolerance",
-        ],
-    ),
+    ("particle", ParticleKeys::KEYS),
+    ("light", LightKeys::KEYS),
+    ("table", TableKeys::KEYS),
+    ("model", ModelKeys::KEYS),
 ];
 
 impl SceneFile {
@@ -147,8 +171,8 @@ impl SceneFile {
     pub fn overridden_by(self, flags: &SceneFile) -> SceneFile {
         SceneFile {
             particle: self.particle.overridden_by(&flags.particle),
-            light: self.light.overridden_by(&flags.light),
-            table: self.table.overridden_by(&flags.table),
+            light: flags.light.clone().over(self.light),
+            table: flags.table.clone().over(self.table),
             model: self.model.overridden_by(&flags.model),
         }
     }
@@ -175,41 +199,7 @@ impl ParticleKeys {
         if flags.medium.is_some() {
             (self.temperature_c, self.density_kg_m3) = (None, None);
         }
-        ParticleKeys {
-            shape: flags.shape.or(self.shape),
-            radius_mm: flags.radius_mm.or(self.radius_mm),
-            radius_um: flags.radius_um.or(self.radius_um),
-            diameter_mm: flags.diameter_mm.or(self.diameter_mm),
-            size_distribution: flags.size_distribution.or(self.size_distribution),
-            axis_ratio: flags.axis_ratio.or(self.axis_ratio),
-            model: flags.model.or(self.model),
-            temperature_c: flags.temperature_c.or(self.temperature_c),
-            medium: flags.medium.clone().or(self.medium),
-            density_kg_m3: flags.density_kg_m3.or(self.density_kg_m3),
-        }
-    }
-}
-
-impl LightKeys {
-    fn overridden_by(self, flags: &LightKeys) -> LightKeys {
-        LightKeys {
-            sun_elevation_deg: flags.sun_elevation_deg.or(self.sun_elevation_deg),
-            wavelengths_nm: flags.wavelengths_nm.clone().or(self.wavelengths_nm),
-            bandwidth_nm: flags.bandwidth_nm.or(self.bandwidth_nm),
-            sun_disc: flags.sun_disc.or(self.sun_disc),
-        }
-    }
-}
-
-impl TableKeys {
-    fn overridden_by(self, flags: &TableKeys) -> TableKeys {
-        TableKeys {
-            quantity: flags.quantity.or(self.quantity),
-            forward_peak: flags.forward_peak.or(self.forward_peak),
-            bit_round: flags.bit_round.or(self.bit_round),
-            theta_deg: flags.theta_deg.clone().or(self.theta_deg),
-            azimuth_deg: flags.azimuth_deg.clone().or(self.azimuth_deg),
-        }
+        flags.clone().over(self)
     }
 }
 
@@ -220,14 +210,6 @@ impl ModelKeys {
         if series.contains(&flags.method) && flags.method != self.method {
             (self.interference, self.diffraction, self.rays_across) = (None, None, None);
         }
-        ModelKeys {
-            method: flags.method.or(self.method),
-            interference: flags.interference.or(self.interference),
-            diffraction: flags.diffraction.or(self.diffraction),
-            orders: flags.orders.clone().or(self.orders),
-            tolerance: flags.tolerance.or(self.tolerance),
-            rays_across: flags.rays_across.or(self.rays_across),
-            allow_unmet_tolerance: flags.allow_unmet_tolerance.or(self.allow_unmet_tolerance),
-        }
+        flags.clone().over(self)
     }
 }

@@ -12,6 +12,8 @@
 mod choice;
 mod error;
 mod file;
+#[cfg(feature = "cli")]
+mod flags;
 mod grid;
 mod particle;
 mod read;
@@ -23,6 +25,7 @@ mod validate;
 
 pub use choice::{Choice, Named, ShapeName};
 // Batches use them, and batches need HDF5.
+pub use crate::math::bytes::human_bytes;
 #[cfg(feature = "hdf5")]
 pub(crate) use error::shown;
 pub use error::{Place, SceneError};
@@ -31,7 +34,7 @@ pub use grid::Grid;
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
 pub(crate) use read::{line_at, read_limited};
-pub use size::{TableSize, human_bytes};
+pub use size::TableSize;
 pub use sizes::SizeKeys;
 
 use crate::medium::{Density, Medium};

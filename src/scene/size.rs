@@ -1,6 +1,7 @@
 //! How large the table of a scene is, before anything is computed.
 
 use super::{Scene, SceneError};
+use crate::math::bytes::human_bytes;
 
 /// Largest slab (one wavelength) that is accepted. HDF5 allows no chunk over 4 GiB, and a slab
 /// passes through memory several times over.
@@ -49,22 +50,4 @@ impl Scene {
             ),
         ))
     }
-}
-
-/// `1234567` → `1.2 MiB`.
-pub fn human_bytes(bytes: u64) -> String {
-    const UNITS: [&str; 6] = ["KiB", "MiB", "GiB", "TiB", "PiB", "EiB"];
-    if bytes < 1024 {
-        return format!("{bytes} bytes");
-    }
-    let mut value = bytes as f64;
-    let mut unit = "";
-    for name in UNITS {
-        value /= 1024.0;
-        unit = name;
-        if value < 1024.0 {
-            break;
-        }
-    }
-    format!("{value:.1} {unit}")
 }

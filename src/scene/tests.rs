@@ -69,6 +69,7 @@ fn known_keys_are_those_of_the_structs() {
             temperature_c: Some(20.0),
             density_kg_m3: Some(1000.0),
             medium: Some(MediumSpec::default()),
+            index: None,
         },
         light: LightKeys {
             sun_elevation_deg: Some(0.0),

@@ -247,6 +247,11 @@ impl Scene {
             let accepted = "an exact series has its own diffraction; method = \"rays\" takes it";
             return refuse("model.diffraction", self.diffraction.name().into(), accepted);
         }
+        if self.forward_peak == ForwardPeak::Separate {
+            let accepted = "an exact series has no forward peak apart from the rest; \"cell_average\" and \
+                            \"point\" have it in the table, method = \"rays\" can keep it apart";
+            return refuse("table.forward_peak", self.forward_peak.name().into(), accepted);
+        }
         if !self.interference {
             let accepted = "an exact series adds waves; method = \"rays\" can leave that out";
             return refuse("model.interference", "false".into(), accepted);

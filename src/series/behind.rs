@@ -217,3 +217,81 @@ fn angular(count: usize, cosines: &Lanes) -> Vec<(Lanes, Lanes)> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::gauss_legendre;
+    use num_complex::Complex64;
+
+    /// Waves made up, of both kinds: fields that leave and what is kept inside.
+    fn waves(shift: f64) -> Waves {
+        let wave = |n: usize, phase: f64| Behind {
+            first: Complex64::from_polar(0.3 / (1.0 + 0.1 * n as f64), phase * n as f64 + shift),
+            internal: Complex64::from_polar(0.6, 0.2 * n as f64 + shift),
+        };
+        let list = |phase: f64| (0..12).map(|n| wave(n, phase)).collect::<Vec<_>>();
+        Waves::new(&list(0.7), &list(-0.4), 1.0)
+    }
+
+    fn products() -> Products {
+        let mut sums = Products::default();
+        sums.add_stretch(&waves(0.0), &waves(0.05));
+        sums
+    }
+
+    /// `∫ S11 dμ = Σ (2n+1)(|a|² + |b|²)` and `∫ S11 μ dμ` twice the sum for the asymmetry: the functions of
+    /// neighbouring waves are orthogonal, whatever pairs are left out.
+    #[test]
+    fn elements_integrate_to_their_sums() {
+        let sums = products();
+        assert_eq!(sums.waves(), 12);
+        let nodes = gauss_legendre::nodes(60);
+        let theta: Vec<f64> = nodes.iter().map(|(mu, _)| mu.acos()).collect();
+        let elements = sums.elements(&theta);
+        let (mut power, mut momentum) = (0.0, 0.0);
+        for ((mu, weight), row) in nodes.iter().zip(&elements) {
+            power += weight * row[0];
+            momentum += weight * mu * row[0];
+        }
+        let (scattered, forward) = sums.sums();
+        assert!(scattered > 0.0 && forward != 0.0);
+        assert!((power / scattered - 1.0).abs() < 1e-12, "{power} {scattered}");
+        assert!((momentum - 2.0 * forward).abs() < 1e-12 * scattered, "{momentum} {forward}");
+    }
+
+    /// Straight ahead and back S12 and S34 vanish and S33 is plus or minus S11.
+    #[test]
+    fn on_the_axis_there_is_no_plane() {
+        let rows = products().elements(&[0.0, std::f64::consts::PI]);
+        for (row, sign) in rows.iter().zip([1.0, -1.0]) {
+            assert!(row[1].abs() + row[3].abs() < 1e-9 * row[0].abs(), "{row:?}");
+            assert!((row[2] - sign * row[0]).abs() < 1e-9 * row[0].abs(), "{row:?}");
+        }
+    }
+
+    /// Twice the same sum is twice as much; sums of fewer waves fit in.
+    #[test]
+    fn sums_add_up() {
+        let mut twice = Products::default();
+        twice.add(&products());
+        twice.add(&products());
+        let (a, b) = (products().sums(), twice.sums());
+        assert!((b.0 - 2.0 * a.0).abs() < 1e-14 * b.0 && (b.1 - 2.0 * a.1).abs() < 1e-14 * b.0);
+        twice.add(&Products::default());
+        assert_eq!(twice.sums(), b);
+    }
+
+    /// Waves that hold nothing behind the cut do not count.
+    #[test]
+    fn faint_waves_are_left_out() {
+        let none = Behind { first: Complex64::ZERO, internal: Complex64::from(0.5) };
+        let some = Behind { first: Complex64::from(0.1), ..none };
+        let waves = Waves::new(&[none, some, none, none], &[none, none, some, none], 1.0);
+        assert_eq!(waves.counting, 1..3);
+        let empty = Waves::new(&[none; 3], &[none; 3], 1.0);
+        let mut sums = Products::default();
+        sums.add_stretch(&empty, &empty);
+        assert_eq!(sums.waves(), 0);
+    }
+}

@@ -250,8 +250,9 @@ struct Inside {
     regular: Complex64,
 }
 
-/// Beyond this |ξ⁽¹⁾|² the wave does not reach the inside any more: T < 1e-200.
-const EVANESCENT: f64 = 1e200;
+/// Beyond this |ξ⁽¹⁾|² the wave does not reach the inside any more: T < 1e-150. Its square is still a
+/// number.
+const EVANESCENT: f64 = 1e150;
 
 /// `Z_n` is scaled down when it has grown to this.
 const TALL: f64 = 1e100;
@@ -290,11 +291,12 @@ fn inside_waves(y: Complex64, terms: usize) -> Vec<Inside> {
             continue;
         }
         let product = 2.0 * Complex64::I / (outgoing - regular) - square;
+        let ratio = square / product;
         out.push(Inside {
             outgoing,
             incoming: outgoing - 2.0 * Complex64::I / product,
-            ratio: square / product,
-            inverse_square: square / (product * product),
+            ratio,
+            inverse_square: ratio / product,
             regular,
         });
     }

@@ -14,6 +14,7 @@
 use super::SeriesError;
 use super::mean_nodes::{Line, ZoneError};
 use super::mean_sum::{Summed, exact, fine_and_coarse};
+use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
 use crate::size_distribution::SizeDistribution;
 use std::f64::consts::PI;
@@ -74,6 +75,17 @@ pub enum MeanError {
     },
 }
 
+impl Blame for MeanError {
+    fn fault(&self) -> Fault {
+        match self {
+            MeanError::Series(error) => error.fault(),
+            MeanError::Medium(error) => error.fault(),
+            MeanError::TooLong { .. } => Fault::Input,
+            MeanError::NotMet { .. } => Fault::Run,
+        }
+    }
+}
+
 /// Mean per particle.
 #[derive(Clone, Debug)]
 pub struct Mean {
@@ -83,10 +95,14 @@ pub struct Mean {
     pub scattering: f64,
     /// Absorption cross-section, m².
     pub absorption: f64,
+    /// Extinction by the optical theorem on the mean amplitudes straight ahead, m²: scattering and
+    /// absorption by another way.
+    pub forward_extinction: f64,
     /// Mean cosine of the scattering angle.
     pub asymmetry: f64,
     /// Relative error: the largest of that of S11, root mean square over all angles, of scattering
-    /// and of absorption, estimated from half the cut and from panels twice as wide.
+    /// and of absorption, estimated from half the cut and from panels twice as wide; and the share of the
+    /// light in the tails of the distribution, which is left out.
     pub error: f64,
     /// Spheres that were solved.
     pub spheres: usize,
@@ -213,7 +229,9 @@ impl Ensemble<'_> {
             let at_compared = total.last(COMPARED);
             let (error_small, error_large) =
                 (small.error(&at_compared), large.error(&at_compared) / GAIN);
-            let (error, spheres) = (error_small + error_large, small.spheres + large.spheres);
+            let spheres = small.spheres + large.spheres;
+            // The light of spheres in the tails is missing in all of it.
+            let error = error_small + error_large + TAIL * self.tolerance;
             if error <= self.tolerance {
                 return Ok(Mean::new(total, theta.len(), error, spheres));
             }
@@ -349,6 +367,7 @@ impl Mean {
             elements,
             scattering: total.scattering,
             absorption: total.absorption,
+            forward_extinction: total.extinction,
             asymmetry: total.forward / total.scattering,
             error,
             spheres,
@@ -359,6 +378,7 @@ impl Mean {
         self.elements.iter_mut().flatten().for_each(|value| *value *= factor);
         self.scattering *= factor;
         self.absorption *= factor;
+        self.forward_extinction *= factor;
         self.error *= factor;
         self
     }
@@ -371,8 +391,91 @@ impl Mean {
             (self.asymmetry * self.scattering + other.asymmetry * other.scattering) / scattering;
         self.scattering = scattering;
         self.absorption += other.absorption;
+        self.forward_extinction += other.forward_extinction;
         self.error += other.error;
         self.spheres += other.spheres;
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::series::lorenz_mie::Sphere;
+    use num_complex::Complex64;
+
+    fn mean(scattering: f64, asymmetry: f64) -> Mean {
+        Mean {
+            elements: vec![[scattering, 0.1, 0.2, 0.3]; 2],
+            scattering,
+            absorption: 0.5 * scattering,
+            forward_extinction: 1.5 * scattering,
+            asymmetry,
+            error: 0.01,
+            spheres: 3,
+        }
+    }
+
+    /// Areas add up, the asymmetry is weighted by what is scattered.
+    #[test]
+    fn means_add_up() {
+        let sum = mean(1.0, 0.8).plus(&mean(3.0, 0.4).scaled(2.0));
+        assert_eq!((sum.scattering, sum.absorption, sum.spheres), (7.0, 3.5, 6));
+        assert_eq!(sum.forward_extinction, 10.5);
+        assert!((sum.asymmetry - (0.8 + 6.0 * 0.4) / 7.0).abs() < 1e-15);
+        assert!((sum.error - 0.03).abs() < 1e-15 && sum.elements[1][0] == 7.0);
+        assert!((sum.elements[0][3] - 0.9).abs() < 1e-15);
+    }
+
+    /// One size in a band so narrow that nothing changes in it is one sphere: `dC/dΩ = S11/k²`.
+    #[test]
+    fn a_single_size_in_a_narrow_band_is_its_sphere() {
+        let (wavelength, radius) = (500e-9, 2e-6);
+        let medium = Medium::Constant(Complex64::new(1.5, 0.05));
+        let ensemble = Ensemble {
+            sizes: SizeDistribution::delta(radius),
+            medium: &medium,
+            wavelength,
+            bandwidth: 0.2e-9,
+            tolerance: 1e-4,
+            accept_unmet: false,
+        };
+        let theta = [0.0, 0.7, 2.0, PI];
+        let found = ensemble.mean(&theta).unwrap();
+        let k = 2.0 * PI / wavelength;
+        let sphere = Sphere::new(k * radius, Complex64::new(1.5, 0.05)).unwrap();
+        for (row, (s1, s2)) in found.elements.iter().zip(sphere.amplitudes(&theta)) {
+            let exact = 0.5 * (s1.norm_sqr() + s2.norm_sqr()) / (k * k);
+            assert!((row[0] / exact - 1.0).abs() < 1e-3, "{} {exact}", row[0]);
+        }
+        let area = PI * radius * radius;
+        let e = sphere.efficiencies();
+        assert!((found.scattering / (e.q_sca * area) - 1.0).abs() < 1e-4);
+        assert!((found.absorption / (e.q_abs * area) - 1.0).abs() < 1e-4);
+        assert!((found.asymmetry - e.asymmetry).abs() < 1e-4);
+    }
+
+    /// The difference of two ways in units of the whole; what is no number is not lost.
+    #[test]
+    fn errors_are_differences_over_the_whole() {
+        let filled = |value: f64| Summed {
+            elements: vec![[value; 4]; COMPARED],
+            scattering: value,
+            absorption: value,
+            extinction: value,
+            forward: value,
+        };
+        let error = |fine: f64, coarse: Summed, spheres: usize| {
+            Compared { fine: filled(fine), coarse, spheres }.error(&filled(2.0))
+        };
+        assert!((error(1.0, filled(1.1), 4) - 0.05).abs() < 1e-14);
+        assert_eq!(error(1.0, filled(1.1), 0), 0.0);
+        // one angle alone counts by the root of its share
+        let mut one = filled(1.0);
+        one.elements[3][0] = 1.5;
+        assert!((error(1.0, one, 4) - 0.25 / (COMPARED as f64).sqrt()).abs() < 1e-14);
+        let mut none = filled(1.0);
+        none.elements[3][0] = f64::NAN;
+        assert!(error(1.0, none, 4).is_nan());
     }
 }

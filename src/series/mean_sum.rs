@@ -56,13 +56,15 @@ pub(super) struct Summed {
     pub absorption: f64,
     /// Scattering times the mean cosine.
     pub forward: f64,
+    /// Extinction by the optical theorem: of the amplitudes straight ahead, not of powers.
+    pub extinction: f64,
 }
 
 impl Summed {
     /// Nothing at so many angles.
     pub fn nothing(angles: usize) -> Summed {
         let elements = vec![[0.0; 4]; angles];
-        Summed { elements, scattering: 0.0, absorption: 0.0, forward: 0.0 }
+        Summed { elements, scattering: 0.0, absorption: 0.0, forward: 0.0, extinction: 0.0 }
     }
 
     /// With other spheres.
@@ -71,6 +73,7 @@ impl Summed {
         self.scattering += other.scattering;
         self.absorption += other.absorption;
         self.forward += other.forward;
+        self.extinction += other.extinction;
         self
     }
 
@@ -185,6 +188,7 @@ struct Sum<'a> {
     scattering: f64,
     absorption: f64,
     forward: f64,
+    extinction: f64,
 }
 
 impl<'a> Sum<'a> {
@@ -204,6 +208,7 @@ impl<'a> Sum<'a> {
             scattering: 0.0,
             absorption: 0.0,
             forward: 0.0,
+            extinction: 0.0,
         };
         sum.elements.resize(sum.set().len(), [0.0; 4]);
         sum
@@ -251,6 +256,7 @@ impl<'a> Sum<'a> {
         let (scattered, forward) = sums(a, b);
         self.scattering += scale * TAU * scattered;
         self.forward += scale * 2.0 * TAU * forward;
+        self.extinction += scale * TAU * straight_ahead(a, b);
         self.absorption += weight * q_abs * PI * node.radius * node.radius;
     }
 }
@@ -272,6 +278,7 @@ struct Total {
     scattering: f64,
     absorption: f64,
     forward: f64,
+    extinction: f64,
 }
 
 impl Total {
@@ -286,6 +293,7 @@ impl Total {
         self.scattering += sum.scattering;
         self.absorption += sum.absorption;
         self.forward += sum.forward;
+        self.extinction += sum.extinction;
     }
 
     /// The sums at the asked angles, with the orders behind the cut.
@@ -313,8 +321,16 @@ impl Total {
             scattering,
             absorption: self.absorption,
             forward: self.forward + 2.0 * TAU * forward,
+            // Of the orders behind the cut the phases run through many turns: no amplitude is left.
+            extinction: self.extinction,
         }
     }
+}
+
+/// `Σ (2n+1) Re(a_n + b_n)`: the real part of the amplitude straight ahead, twice.
+fn straight_ahead(a: &[Complex64], b: &[Complex64]) -> f64 {
+    let wave = |(k, (a, b)): (usize, (&Complex64, &Complex64))| (2 * k + 3) as f64 * (a + b).re;
+    a.iter().zip(b).enumerate().map(wave).sum()
 }
 
 fn add_rows(to: &mut [[f64; 4]], from: &[[f64; 4]]) {

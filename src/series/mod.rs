@@ -6,6 +6,7 @@
 pub mod angular;
 mod behind;
 pub mod debye;
+mod debye_error;
 pub mod even_angles;
 pub mod lanes;
 pub mod lorenz_mie;
@@ -13,9 +14,9 @@ pub mod mean;
 mod mean_nodes;
 mod mean_sum;
 mod stretch;
-mod sun_disc;
 pub mod table;
 
+use crate::fault::{Blame, Fault};
 use num_complex::Complex64;
 
 /// Smallest size parameter accepted: below it the squares of the Riccati–Bessel functions
@@ -42,6 +43,15 @@ pub enum SeriesError {
     OutOfMemory { terms: usize },
     #[error("{field} = {value}: accepted {accepted}")]
     Invalid { field: &'static str, value: String, accepted: &'static str },
+}
+
+impl Blame for SeriesError {
+    fn fault(&self) -> Fault {
+        match self {
+            SeriesError::OutOfMemory { .. } => Fault::Run,
+            _ => Fault::Input,
+        }
+    }
 }
 
 /// Efficiencies (cross-section over πa²) and the asymmetry parameter of a sphere.

@@ -7,15 +7,17 @@
 //! Means over drop sizes, over a band of wavelengths and over the sun's disc enter here
 //! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
+use super::SeriesError;
 use super::debye::{DebyeSeries, Term};
+use super::debye_error::BandErrors;
 use super::lorenz_mie::{Sphere, sums};
 use super::mean::{Ensemble, MeanError};
-use super::sun_disc::Disc;
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
-use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, Quantity, Slab};
+use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
 use crate::scene::SunDisc;
 use crate::size_distribution::SizeDistribution;
+use crate::sun_disc::DiscMean;
 use ndarray::Array3;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
@@ -63,13 +65,13 @@ struct Curves {
     scattering: f64,
     extinction: f64,
     absorption: f64,
-    /// Extinction by the optical theorem, where the elements have all that goes straight ahead.
+    /// Extinction by the optical theorem on the amplitudes straight ahead.
     forward: Option<f64>,
     asymmetry: f64,
     /// Share of the scattering that the terms of a list leave out; negative where those left out take
     /// light away by interference.
     left_out: f64,
-    error: f64,
+    errors: BandErrors,
 }
 
 /// One wavelength of a table of spheres: `theta` ascending, radians. The values have one azimuth.
@@ -120,6 +122,7 @@ pub fn sphere_slab(
     let values = Array3::from_shape_fn((quantity.elements(), theta.len(), 1), |(e, i, _)| {
         (of_sphere(&elements[i], e) * scale) as f32
     });
+    let weighted = curves.errors.weighted;
     Ok(Slab {
         wavelength,
         index,
@@ -133,10 +136,10 @@ pub fn sphere_slab(
         energy: None,
         sum_before_peak,
         peak_share: 0.0,
-        error_estimate: curves.error,
-        error_by_band: curves.error,
-        tolerance_met: (!curves.error.is_nan()).then_some(curves.error <= job.tolerance),
-        error_by_direction: [curves.error; ERROR_BANDS],
+        error_estimate: weighted,
+        error_by_band: curves.errors.by_band,
+        tolerance_met: (!weighted.is_nan()).then_some(weighted <= job.tolerance),
+        error_by_direction: curves.errors.by_direction,
         left_out: curves.left_out,
         methods: Vec::new(),
     })
@@ -162,10 +165,10 @@ impl SphereJob<'_> {
             SunDisc::Uniform => None,
             SunDisc::LimbDarkened => Some(LimbDarkening::at(self.wavelength)),
         };
-        let disc = Disc::new(largest, limb);
+        let disc = DiscMean::new(largest, limb);
         let mut curves = self.curves(index, &disc.fine_angles())?;
         curves.elements = disc.means(&curves.elements, theta);
-        curves.error = curves.error.max(DISC_ERROR);
+        curves.errors = curves.errors.at_least(DISC_ERROR);
         Ok(curves)
     }
 
@@ -178,11 +181,16 @@ impl SphereJob<'_> {
         let x = TAU * radius / self.wavelength;
         let sphere = Sphere::new(x, index)?;
         let area = (self.wavelength / TAU).powi(2);
-        let (amplitudes, forward, left_out, error) = match &self.source {
+        let (amplitudes, forward, left_out, errors) = match &self.source {
             Source::LorenzMie => {
                 let (s1, s2) = sphere.amplitudes(&[0.0])[0];
                 let forward = TAU * area * (s1 + s2).re;
-                (sphere.amplitudes_parallel(theta), Some(forward), 0.0, SERIES_ERROR)
+                (
+                    sphere.amplitudes_parallel(theta),
+                    Some(forward),
+                    0.0,
+                    BandErrors::even(SERIES_ERROR),
+                )
             }
             // Cross-sections are those of the whole sphere, the terms part of it.
             Source::Debye(terms) => {
@@ -190,7 +198,14 @@ impl SphereJob<'_> {
                 let (a, b) = series.coefficients(terms);
                 let scattered = 2.0 / (x * x) * sums(&a, &b).0;
                 let left_out = 1.0 - scattered / sphere.efficiencies().q_sca;
-                (series.sum_parallel(terms, theta), None, left_out, debye_error(&series, terms))
+                if !(-1.0..=1.0).contains(&left_out) {
+                    return Err(cancelling(1.0 - left_out).into());
+                }
+                let errors = BandErrors::of_terms(&series, terms, &sphere).at_least(SERIES_ERROR);
+                // Of all terms together, by way of the Debye coefficients.
+                let (s1, s2) = series.sum(&[Term::All], &[0.0])[0];
+                let forward = TAU * area * (s1 + s2).re;
+                (series.sum_parallel(terms, theta), Some(forward), left_out, errors)
             }
         };
         let shadow = PI * radius * radius;
@@ -203,7 +218,7 @@ impl SphereJob<'_> {
             forward,
             asymmetry: q.asymmetry,
             left_out,
-            error,
+            errors,
         })
     }
 
@@ -222,24 +237,22 @@ impl SphereJob<'_> {
             scattering: mean.scattering,
             extinction: mean.scattering + mean.absorption,
             absorption: mean.absorption,
-            forward: None,
+            forward: Some(mean.forward_extinction),
             asymmetry: mean.asymmetry,
             left_out: 0.0,
-            error: mean.error,
+            errors: BandErrors::even(mean.error),
         })
     }
 }
 
-/// Relative error of the intensity that a sum from diffraction and order 0 on has for its missing
-/// orders, root mean square over their phases; NaN for single orders, which stand for themselves.
-fn debye_error(series: &DebyeSeries, terms: &[Term]) -> f64 {
-    let count = terms.len().saturating_sub(1) as u32;
-    let whole = (0..count).all(|order| terms.contains(&Term::Order(order)));
-    if !(whole && count > 0 && terms.contains(&Term::Diffraction)) {
-        return f64::NAN;
+/// Terms of a small or soft sphere are far larger than what is left when all of them are added up.
+fn cancelling(times: f64) -> SeriesError {
+    SeriesError::Invalid {
+        field: "model.orders",
+        value: format!("terms that scatter {times:.1e} times as much as the sphere"),
+        accepted: "Debye terms of spheres that are not small, soft or below n = 1, where they cancel \
+                   but for a small rest; method = \"mie\" has that rest",
     }
-    // ΔI/I = 2 |ΔS/S| cos of the phase between them.
-    (std::f64::consts::SQRT_2 * series.missing_share(count - 1)).max(SERIES_ERROR)
 }
 
 fn of_pair((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {

@@ -122,6 +122,8 @@ struct Line<'a, T> {
 const NEWTON_STEPS: usize = 40;
 /// `F` at the foot of the perpendicular below which a line passes well inside.
 const DEEP: f64 = -0.25;
+/// Squared distance from the centre up to which a line passes well inside the sphere of equal volume.
+const WITHIN_SPHERE: f64 = 0.9;
 
 impl<'a, T: Scalar> Line<'a, T> {
     fn new(shape: &'a Shape, origin: Vec3<T>, direction: Vec3<T>) -> Self {
@@ -207,7 +209,9 @@ impl<'a, T: Scalar> Line<'a, T> {
         let distance = self.q0 - self.half_q1 * self.half_q1;
         let core = self.shape.rough_core();
         // Through the core of a polar profile every line hits, and `F` itself may be rough there.
-        if distance.re() < core * core || self.at(middle).0.re() < DEEP {
+        // The guess is that of the sphere of equal volume, which discs and needles stand out of.
+        let within = || distance.re() < WITHIN_SPHERE && self.at(middle).0.re() < DEEP;
+        if distance.re() < core * core || within() {
             return Some((middle, middle - (-distance + 1.0).root()));
         }
         let mut t = middle;
@@ -266,5 +270,116 @@ impl<'a, T: Scalar> Line<'a, T> {
         let dq = (self.half_q1 + t) * 2.0;
         let cross = l.qz * dq * self.z1 * 2.0;
         (l.q * dq + l.z * self.z1, l.q * 2.0 + l.qq * dq * dq + cross + l.zz * self.z1 * self.z1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::RaindropModel;
+    use num_complex::Complex64;
+
+    fn shapes() -> [Shape; 4] {
+        [
+            Shape::sphere(),
+            Shape::spheroid(0.75, 0.3).unwrap(),
+            Shape::spheroid(1.4, 1.1).unwrap(),
+            Shape::raindrop(1.2e-3, RaindropModel::BeardChuang1987, 0.3).unwrap(),
+        ]
+    }
+
+    /// What F, its slopes and its second derivatives say must be one function.
+    #[test]
+    fn derivatives_are_those_of_the_level_function() {
+        const H: f64 = 1e-5;
+        for shape in shapes() {
+            let (q, z) = (0.9, 0.35);
+            let slope = |q: f64, z: f64| shape.slope(q, z);
+            let (s, l) = (slope(q, z), shape.level(q, z));
+            let by = |f: &dyn Fn(Slope<f64>) -> f64, dq: f64, dz: f64| {
+                (f(slope(q + H * dq, z + H * dz)) - f(slope(q - H * dq, z - H * dz))) / (2.0 * H)
+            };
+            assert!((by(&|s| s.f, 1.0, 0.0) - s.q).abs() < 1e-9, "{shape:?}");
+            assert!((by(&|s| s.f, 0.0, 1.0) - s.z).abs() < 1e-9);
+            assert!((l.q - s.q).abs() + (l.z - s.z).abs() < 1e-14);
+            assert!((by(&|s| s.q, 1.0, 0.0) - l.qq).abs() < 1e-9);
+            assert!((by(&|s| s.q, 0.0, 1.0) - l.qz).abs() < 1e-9);
+            assert!((by(&|s| s.z, 0.0, 1.0) - l.zz).abs() < 1e-9);
+        }
+    }
+
+    /// A line enters and leaves at the surface; on the sphere the chord is `2 cos i'`.
+    #[test]
+    fn lines_meet_the_surface_and_chords_end_there() {
+        for shape in shapes() {
+            for (u, v) in [(0.0, 0.0), (0.5, -0.4), (-0.1, 0.85), (0.8, 0.2)] {
+                let t = shape.entry(u, v).unwrap();
+                let level = |x: Vec3<f64>| shape.slope(x.dot(x), x.dot(shape.down)).f;
+                let entry = Vec3::new(u, v, t);
+                assert!(level(entry).abs() < 1e-12, "{shape:?}");
+                let tangent = shape.tangent(entry);
+                // the first meeting: the surface looks towards the light
+                assert!(tangent.normal.z < 0.0);
+                let inward = (-tangent.normal + Vec3::new(0.1, 0.2, 0.0)).normalized();
+                let length = shape.chord(entry, inward, &tangent);
+                assert!(level(entry + inward * length).abs() < 1e-12 && length > 0.2);
+                if shape.is_sphere() {
+                    assert!((length + 2.0 * tangent.normal.dot(inward)).abs() < 1e-13);
+                }
+            }
+            assert!(shape.entry(1.3, 0.3).is_none());
+        }
+    }
+
+    /// The continuation of a chord to complex launch points is analytic: Cauchy and Riemann agree.
+    #[test]
+    fn complex_lines_continue_the_real_ones() {
+        const H: f64 = 1e-5;
+        for shape in shapes() {
+            let entry = |du: Complex64| shape.entry(0.4 + du, Complex64::from(0.3)).unwrap();
+            let i = Complex64::i();
+            let real = shape.entry(0.4, 0.3).unwrap();
+            assert!((entry(0.0.into()) - real).norm() < 1e-14, "{shape:?}");
+            let along = (entry(H.into()) - entry((-H).into())) / (2.0 * H);
+            let aside = (entry(i * H) - entry(-i * H)) / (2.0 * H * i);
+            assert!((along - aside).norm() < 1e-8, "{shape:?}: {along} {aside}");
+        }
+    }
+
+    /// The turn of the normal along the surface, by differences between neighbouring points.
+    #[test]
+    fn normals_turn_as_the_surface_bends() {
+        const H: f64 = 1e-5;
+        for shape in shapes() {
+            let point = |du: f64, dv: f64| {
+                let (u, v) = (0.3 + du, -0.4 + dv);
+                Vec3::new(u, v, shape.entry(u, v).unwrap())
+            };
+            let tangent = shape.tangent(point(0.0, 0.0));
+            for (du, dv) in [(H, 0.0), (0.0, H), (H, -H)] {
+                let (a, b) = (point(-du, -dv), point(du, dv));
+                let exact = shape.tangent(b).normal - shape.tangent(a).normal;
+                let off = (exact - tangent.turn(b - a)) * (0.5 / H);
+                assert!(off.dot(off).sqrt() < 1e-8, "{shape:?}: {off:?}");
+                assert!(tangent.normal.dot(b - a).abs() < 1e-13);
+            }
+        }
+    }
+
+    /// On the flattened side of a large drop `F` has a hump between two dips: rays along the rim of
+    /// its shadow find the first.
+    #[test]
+    fn rays_near_the_rim_of_large_drops_are_found() {
+        let shape = Shape::raindrop(2.9e-3, RaindropModel::BeardChuang1987, 0.2).unwrap();
+        let silhouette = shape.silhouette();
+        for k in 0..48 {
+            let azimuth = f64::from(k) * std::f64::consts::TAU / 48.0;
+            let ((sin, cos), radius) = (azimuth.sin_cos(), silhouette.radius(azimuth));
+            let inside = shape.entry(0.9999 * radius * cos, 0.9999 * radius * sin).unwrap();
+            let tangent =
+                shape.tangent(Vec3::new(0.9999 * radius * cos, 0.9999 * radius * sin, inside));
+            assert!(tangent.normal.z <= 0.0, "{azimuth}: {:?}", tangent.normal);
+            assert!(shape.entry(1.0001 * radius * cos, 1.0001 * radius * sin).is_none());
+        }
     }
 }

@@ -16,6 +16,7 @@ pub use level::{Level, Slope, Tangent};
 pub use raindrop::{Raindrop, RaindropModel};
 pub use silhouette::Silhouette;
 
+use crate::fault::{Blame, Fault};
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 
@@ -26,6 +27,12 @@ pub enum ShapeError {
     RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
     #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
     AxisRatio(f64),
+}
+
+impl Blame for ShapeError {
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
 }
 
 /// The kind of body, its equal-volume sphere scaled to radius 1.
@@ -122,4 +129,56 @@ fn down(sun_elevation: f64) -> Vec3<f64> {
     // cos(90°) is not quite zero in floating point; the symmetry of light along the axis should be
     let cos = if cos.abs() < 1e-15 { 0.0 } else { cos };
     Vec3 { x: -cos, y: 0.0, z: sin }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn the_axis_turns_with_the_sun() {
+        for elevation in [0.0, 0.4, FRAC_PI_2] {
+            let shape = Shape::spheroid(0.8, elevation).unwrap();
+            assert!((shape.down.dot(shape.down) - 1.0).abs() < 1e-15);
+            // light of a high sun goes down
+            assert!((shape.down.z - elevation.sin()).abs() < 1e-15);
+            assert_eq!(shape.rotational_symmetry(), elevation == FRAC_PI_2);
+        }
+        let elevation = 0.4;
+        assert!(Shape::spheroid(1.0, elevation).unwrap().is_sphere());
+        assert!(Shape::spheroid(1.0, elevation).unwrap().rotational_symmetry());
+    }
+
+    #[test]
+    fn an_axis_ratio_out_of_range_is_named() {
+        for ratio in [0.09, 10.1, f64::NAN, -1.0] {
+            let error = Shape::spheroid(ratio, 0.0).unwrap_err();
+            assert!(
+                matches!(error, ShapeError::AxisRatio(_))
+                    && error.to_string().contains("0.1 to 10")
+            );
+        }
+    }
+
+    /// Bodies have the volume of the unit sphere and lie within their bounding radius. Gauss's rule
+    /// in the cosine about the axis, which is exact for what a raindrop's profile is.
+    #[test]
+    fn volumes_are_that_of_the_unit_sphere() {
+        let nodes = crate::math::gauss_legendre::nodes(40);
+        for (shape, bound) in [
+            (Shape::sphere(), 1e-14),
+            (Shape::spheroid(0.7, 0.0).unwrap(), 1e-12),
+            (Shape::spheroid(1.6, 0.0).unwrap(), 1e-12),
+            (Shape::raindrop(1e-3, RaindropModel::ChuangBeard1990, 0.0).unwrap(), 2e-3),
+        ] {
+            let mut volume = 0.0;
+            for (mu, weight) in &nodes {
+                let radius = shape.radius_towards(-mu, (1.0 - mu * mu).sqrt(), 0.0);
+                assert!(radius <= shape.bounding_radius() + 1e-14, "{shape:?}");
+                volume += 2.0 * PI / 3.0 * weight * radius.powi(3);
+            }
+            assert!((volume / (4.0 * PI / 3.0) - 1.0).abs() < bound, "{shape:?}: {volume}");
+        }
+    }
 }

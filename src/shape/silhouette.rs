@@ -1,6 +1,6 @@
 //! The silhouette: the outline of the body's shadow, seen along the light.
 
-use super::Shape;
+use super::{Body, Shape};
 use crate::math::vec3::Vec3;
 use std::f64::consts::TAU;
 
@@ -58,7 +58,11 @@ impl Silhouette<'_> {
         let (sin, cos) = azimuth.sin_cos();
         let along = Vec3 { x: cos, y: sin, z: 0.0 };
         let down = self.shape.down;
-        let (mut rho, mut t) = (1.0, 0.0);
+        let (mut rho, mut t) = match &self.shape.body {
+            // Newton's method from a sphere leads astray on discs and needles.
+            Body::Spheroid(spheroid) => spheroid.outline(down.dot(along), down.z),
+            _ => (1.0, 0.0),
+        };
         for _ in 0..50 {
             let x = along * rho + Vec3 { x: 0.0, y: 0.0, z: t };
             let (q, z) = (x.dot(x), down.dot(x));
@@ -94,5 +98,47 @@ impl Silhouette<'_> {
         let count = 720;
         let step = TAU / count as f64;
         (0..count).map(|i| 0.5 * self.radius(i as f64 * step).powi(2) * step).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::RaindropModel;
+    use std::f64::consts::PI;
+
+    /// The shadow of a spheroid is an ellipse of half axes h and `√(v² cos² e + h² sin² e)`.
+    #[test]
+    fn the_shadow_of_a_spheroid_is_an_ellipse() {
+        let (ratio, elevation): (f64, f64) = (0.7, 0.5);
+        let (h, v) = (ratio.powf(-1.0 / 3.0), ratio.powf(2.0 / 3.0));
+        let upward = (v * elevation.cos()).hypot(h * elevation.sin());
+        let shape = Shape::spheroid(ratio, elevation).unwrap();
+        let silhouette = shape.silhouette();
+        for k in 0..20 {
+            let (sin, cos) = (0.33 * f64::from(k)).sin_cos();
+            let expected = ((cos / upward).powi(2) + (sin / h).powi(2)).sqrt().recip();
+            assert!((silhouette.radius(0.33 * f64::from(k)) - expected).abs() < 1e-13, "{k}");
+        }
+        assert!((silhouette.area() - PI * h * upward).abs() < 1e-12);
+        assert!((Shape::sphere().silhouette().area() - PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn slopes_and_the_table_follow_the_radius() {
+        const H: f64 = 1e-5;
+        let shape = Shape::raindrop(2e-3, RaindropModel::BeardChuang1987, 0.4).unwrap();
+        let (exact, table) = (shape.silhouette(), shape.silhouette().tabulated());
+        for k in 0..25 {
+            let azimuth = -1.0 + 0.31 * f64::from(k);
+            let (radius, slope) = exact.radius_and_slope(azimuth);
+            let by_steps = (exact.radius(azimuth + H) - exact.radius(azimuth - H)) / (2.0 * H);
+            assert!((slope - by_steps).abs() < 1e-9, "{azimuth}: {slope} {by_steps}");
+            let (r, s) = table.radius_and_slope(azimuth);
+            assert!(
+                (r - radius).abs() < 1e-8 && (s - slope).abs() < 1e-5,
+                "{azimuth}: {r} {radius}"
+            );
+        }
     }
 }

@@ -66,3 +66,54 @@ fn add_ray(tracer: &Tracer, wavefront: &Wavefront, i: usize, j: usize, sum: &mut
         sum.truncated += weight * rest.truncated;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use num_complex::Complex64;
+
+    /// Fresnel's reflectance of unpolarised light, written out.
+    fn reflectance(incidence: f64, index: f64) -> f64 {
+        let inside = (incidence.sin() / index).asin();
+        let (sum, difference) = (incidence + inside, incidence - inside);
+        let across = (difference.sin() / sum.sin()).powi(2);
+        let along = (difference.tan() / sum.tan()).powi(2);
+        0.5 * (across + along)
+    }
+
+    /// `∫ f(θ) sin 2θ dθ` over the rays of a sphere.
+    fn mean(f: impl Fn(f64) -> f64) -> f64 {
+        const STEPS: usize = 20_000;
+        let h = std::f64::consts::FRAC_PI_2 / STEPS as f64;
+        (0..STEPS).map(|k| (k as f64 + 0.5) * h).map(|t| f(t) * (2.0 * t).sin() * h).sum()
+    }
+
+    #[test]
+    fn shares_of_a_clear_sphere_are_fresnel_s() {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, 1.333.into(), 100.0, 4);
+        let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&shape, 400, 4));
+        let reflected = mean(|t| reflectance(t, 1.333));
+        assert!((fates.left_by_order[0] - reflected).abs() < 1e-5, "{fates:?} {reflected}");
+        assert!(fates.residual.abs() < 1e-12 && fates.absorbed == 0.0);
+        // both polarisations apart: of order 1 it is not (1 - R)²
+        assert!(fates.left_by_order[1] > mean(|t| (1.0 - reflectance(t, 1.333)).powi(2)));
+        assert!(fates.truncated < 0.02 && fates.totally_reflected == 0.0);
+    }
+
+    /// Nothing is left when rays are followed to their end, and next to nothing leaves a black sphere.
+    #[test]
+    fn what_enters_a_black_sphere_is_absorbed() {
+        let shape = Shape::sphere();
+        let (index, x) = (Complex64::new(1.333, 0.01), 2000.0);
+        let tracer = Tracer::new(&shape, index, x, 1);
+        let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&shape, 300, 4));
+        // coefficients of an absorbing interface add up to 1 but for a small part of k
+        assert!((fates.absorbed + fates.left_by_order[0] - 1.0).abs() < 1e-4, "{fates:?}");
+        assert!(fates.truncated < 1e-5 && fates.residual.abs() < 1e-4);
+        // what is reflected has the mean cosine ∫ R cos(π - 2θ)
+        let momentum = mean(|t| -reflectance(t, 1.333) * (2.0 * t).cos());
+        assert!((fates.forward_momentum - momentum).abs() < 2e-3, "{fates:?} {momentum}");
+    }
+}

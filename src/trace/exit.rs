@@ -95,3 +95,72 @@ pub fn transfer<T: Scalar>(
         s1: -perpendicular(fx, fy),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ray(along: f64) -> Ray<f64> {
+        let direction = Vec3::new(0.48, 0.64, 0.6);
+        let ds = [Vec3::new(0.8, -0.6, 0.0) * 0.3, Vec3::new(0.36, 0.48, -0.8) * -0.7];
+        let dx = [Vec3::new(0.5, 0.1, -0.2), Vec3::new(-0.3, 0.9, 0.4)];
+        let unit = |x: f64, y: f64| Vec3 {
+            x: Complex64::from(x),
+            y: Complex64::from(y),
+            z: Complex64::default(),
+        };
+        Ray {
+            position: Vec3::new(0.3, -0.5, 0.8) + direction * along,
+            direction,
+            dx: [0, 1].map(|k| dx[k] + ds[k] * along),
+            ds,
+            path: 2.0 + along,
+            field: [unit(1.0, 0.0), unit(0.0, 1.0)],
+            focal_lines: 0,
+        }
+    }
+
+    /// Outside nothing depends on where along the ray it is taken.
+    #[test]
+    fn an_exit_does_not_depend_on_the_place_along_the_ray() {
+        let (near, far) = (Exit::new(2, ray(0.0)), Exit::new(2, ray(3.7)));
+        let apart = |a: Vec3<f64>, b: Vec3<f64>| (a - b).dot(a - b).sqrt();
+        assert!(apart(near.reference, far.reference) < 1e-14);
+        assert!(near.reference.dot(near.direction).abs() < 1e-15);
+        assert!((near.path - far.path).abs() < 1e-14);
+        for k in 0..2 {
+            assert!(apart(near.dx[k], far.dx[k]) < 1e-14);
+            assert!(near.dx[k].dot(near.direction).abs() < 1e-14);
+        }
+        assert_eq!(near.power(), 1.0);
+    }
+
+    /// The spread is the solid angle per area, by a small triangle of directions.
+    #[test]
+    fn the_spread_is_the_solid_angle_between_neighbours() {
+        const H: f64 = 1e-4;
+        let exit = Exit::new(1, ray(0.0));
+        let [a, b, c] = [[0.0, 0.0], [H, 0.0], [0.0, H]]
+            .map(|[u, v]| (exit.direction + exit.ds[0] * u + exit.ds[1] * v).normalized());
+        let solid_angle = a.dot(b.cross(c)) / (H * H);
+        assert!((exit.spread() - solid_angle).abs() < 1e-4 * solid_angle.abs());
+        assert!((exit.scattering_angle() - 0.6f64.acos()).abs() < 1e-15);
+    }
+
+    /// A field that goes straight on is the unit matrix in the plane of every azimuth.
+    #[test]
+    fn what_goes_straight_on_is_unchanged_in_every_plane() {
+        let field = ray(0.0).field;
+        for azimuth in [0.0f64, 0.7, 2.9, -1.2] {
+            let (sin, cos) = azimuth.sin_cos();
+            let (theta_hat, phi_hat) = (Vec3::new(cos, sin, 0.0), Vec3::new(-sin, cos, 0.0));
+            let t = transfer(&field, theta_hat, phi_hat, cos, sin);
+            assert!((t.s1 - 1.0).norm() + (t.s2 - 1.0).norm() < 1e-14, "{t:?}");
+            assert!(t.s3.norm() + t.s4.norm() < 1e-14, "{t:?}");
+        }
+        // a mirror across the axis turns both fields about, parallel and perpendicular alike
+        let mirrored = field.map(|e| Vec3 { x: e.x, y: -e.y, z: e.z });
+        let t = transfer(&mirrored, Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), 1.0, 0.0);
+        assert_eq!((t.s2.re, t.s1.re), (1.0, -1.0));
+    }
+}

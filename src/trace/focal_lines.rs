@@ -22,3 +22,38 @@ pub(super) fn count(
     let inside = |t: f64| u32::from(t > 0.0 && t <= length);
     inside(q / c2) + inside(c0 / q)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines within a length, for a bundle with foci at these distances (negative: behind).
+    fn lines(foci: [f64; 2], length: f64) -> u32 {
+        // neither axes of the bundle nor its direction along the frame's
+        let direction = Vec3::new(0.6, 0.0, 0.8);
+        let axes = [Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.8, 0.0, -0.6)];
+        let (sin, cos) = 0.4f64.sin_cos();
+        let mixed = |scale: [f64; 2]| {
+            let [a, b] = [axes[0] * scale[0], axes[1] * scale[1]];
+            [a * cos + b * sin, b * cos - a * sin]
+        };
+        let bent = mixed(foci.map(|f| -1.0 / f));
+        count(direction, &mixed([1.0, 1.0]), &bent, length)
+    }
+
+    #[test]
+    fn an_astigmatic_bundle_passes_two_lines() {
+        assert_eq!(lines([1.0, 2.5], 0.9), 0);
+        assert_eq!(lines([1.0, 2.5], 1.1), 1);
+        assert_eq!(lines([1.0, 2.5], 2.6), 2);
+        assert_eq!(lines([1.0, 2.5], f64::INFINITY), 2);
+    }
+
+    #[test]
+    fn a_point_focus_counts_twice_and_rays_apart_never() {
+        assert_eq!(lines([1.5, 1.5], 1.6), 2);
+        assert_eq!(lines([-1.0, -3.0], f64::INFINITY), 0);
+        assert_eq!(lines([-1.0, 2.0], f64::INFINITY), 1);
+        assert_eq!(lines([f64::INFINITY, 2.0], f64::INFINITY), 1);
+    }
+}

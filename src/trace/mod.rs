@@ -10,10 +10,12 @@ mod exit;
 mod focal_lines;
 mod ray;
 mod surface_event;
+mod symmetry_plane;
 mod tracer;
 mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
 pub use exit::{Exit, transfer};
+pub use symmetry_plane::{PlaneRay, Rainbow, SymmetryPlane};
 pub use tracer::{Meeting, Remainder, Tracer};
 pub use wavefront::Wavefront;

@@ -38,3 +38,40 @@ pub(super) fn power(field: &[Field; 2]) -> f64 {
     let square = |e: &Field| e.x.norm_sqr() + e.y.norm_sqr() + e.z.norm_sqr();
     0.5 * (square(&field[0]) + square(&field[1]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_complex::Complex64;
+
+    fn ray<T: Scalar>() -> Ray<T> {
+        let v = |x: f64, y: f64, z: f64| Vec3::new(T::real(x), T::real(y), T::real(z));
+        let e = |x: f64, y: f64| Vec3 {
+            x: Complex64::new(0.0, x),
+            y: y.into(),
+            z: Complex64::default(),
+        };
+        Ray {
+            position: v(0.1, 0.2, -0.3),
+            direction: v(0.0, 0.0, 1.0),
+            dx: [v(1.0, 0.0, 0.0), v(0.0, 1.0, 0.0)],
+            ds: [v(-0.5, 0.0, 0.0), v(0.0, 0.25, 0.0)],
+            path: T::real(0.4),
+            field: [e(0.6, 0.0), e(0.0, 0.8)],
+            focal_lines: 0,
+        }
+    }
+
+    #[test]
+    fn power_is_the_mean_of_both_polarisations() {
+        assert!((ray::<f64>().power() - 0.5).abs() < 1e-15);
+    }
+
+    /// One focus two lengths ahead, the other behind; complex rays are asked for their real parts.
+    #[test]
+    fn focal_lines_ahead_are_counted() {
+        assert_eq!(ray::<f64>().focal_lines_within(1.9), 0);
+        assert_eq!(ray::<f64>().focal_lines_within(2.1), 1);
+        assert_eq!(ray::<Complex64>().focal_lines_within(f64::INFINITY), 1);
+    }
+}

@@ -101,3 +101,48 @@ impl Wavefront {
         self.area
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn shares_add_up_to_the_shadow() {
+        for shape in [Shape::sphere(), Shape::spheroid(0.7, 0.4).unwrap()] {
+            let wavefront = Wavefront::midpoints(&shape, 23, 40);
+            let shares = (0..23)
+                .flat_map(|i| (0..40).map(move |j| (i, j)))
+                .map(|(i, j)| wavefront.share(i, j));
+            assert!((shares.sum::<f64>() / wavefront.area() - 1.0).abs() < 1e-13);
+            assert!((wavefront.area() - shape.silhouette().area()).abs() < 1e-9);
+        }
+        // a ring's share lies about its rays: the mean of the squared radius is half the area's
+        let wavefront = Wavefront::midpoints(&Shape::sphere(), 400, 8);
+        let moment: f64 =
+            (0..400).map(|i| 8.0 * wavefront.share(i, 0) * wavefront.rings[i].sin().powi(2)).sum();
+        assert!((moment / PI - 0.5).abs() < 1e-5, "{moment}");
+    }
+
+    /// Triangles cover the polygon of the last ring once, all in one sense.
+    #[test]
+    fn triangles_cover_the_shadow_once() {
+        let (rings, spokes) = (5, 12);
+        let wavefront = Wavefront::corners(&Shape::sphere(), rings, spokes, 0.3);
+        assert_eq!(wavefront.len(), 1 + rings * spokes);
+        let triangles = wavefront.triangles();
+        assert_eq!(triangles.len(), spokes * (2 * rings - 1));
+        let areas: Vec<f64> = triangles
+            .iter()
+            .map(|t| {
+                let [p, q, r] = t.map(|n| wavefront.vertex(n as usize));
+                0.5 * ((q.0 - p.0) * (r.1 - p.1) - (q.1 - p.1) * (r.0 - p.0))
+            })
+            .collect();
+        assert!(areas.iter().all(|&area| area > 0.0));
+        let last = (FRAC_PI_2 - GRAZING).sin();
+        let polygon = 0.5 * spokes as f64 * (TAU / spokes as f64).sin() * last * last;
+        assert!((areas.iter().sum::<f64>() - polygon).abs() < 1e-13);
+        assert_eq!(wavefront.vertex(0), (0.0, 0.0));
+    }
+}

@@ -60,3 +60,63 @@ fn add(sum: &mut Knot, weight: f64, knot: &Knot) {
         sum.channels_mut()[c] += weight * knot.channels()[c];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::farfield::branch::knots::SingleKnot;
+    use std::f64::consts::PI;
+
+    const X: f64 = 1000.0;
+
+    /// Planes over a half-turn, one segment of two knots each, from path and first amplitude by azimuth.
+    fn planes(kind: Kind, f: impl Fn(f64) -> [f64; 2]) -> Vec<Vec<Segment>> {
+        let plane = |j: usize| {
+            let [path, amplitude] = f(PI * j as f64 / 24.0);
+            let knot = |angle: f64| {
+                let mut knot = SingleKnot { angle, path, path_slope: -0.4, ..Default::default() };
+                knot.amplitudes[0].re = amplitude;
+                Knot::from(knot)
+            };
+            vec![Segment { kind, knots: vec![knot(1.0), knot(1.2)] }]
+        };
+        (0..=24).map(plane).collect()
+    }
+
+    const PLAIN: Kind = Kind::Plain { focal_lines: 2, from_axis: false };
+
+    #[test]
+    fn smooth_planes_are_smooth_to_both_ends() {
+        let smooth = planes(PLAIN, |phi| [1.0 + 0.1 * phi.cos() + 0.02 * (2.0 * phi).cos(), 1.0]);
+        assert!(azimuthal_smoothness(&smooth, X) < 2e-3);
+        assert_eq!(azimuthal_smoothness(&smooth[..3], X), 0.0);
+    }
+
+    /// One plane off by a path has at least 5/16 of its phase, wherever it stands.
+    #[test]
+    fn a_plane_that_jumps_is_seen() {
+        for j in [0, 7, 24] {
+            let mut rough = planes(PLAIN, |phi| [1.0 + 0.1 * phi.cos(), 1.0]);
+            let knot = &mut rough[j][0].knots[1];
+            *knot = SingleKnot { path: knot.single().path + 1e-3, ..knot.single() }.into();
+            let found = azimuthal_smoothness(&rough, X);
+            assert!((0.9..=1.1).contains(&found), "{j}: {found}");
+        }
+        // angles that move with their paths along the ray's own slope are no fault
+        let mut moved = planes(PLAIN, |_| [1.0, 1.0]);
+        let knot = &mut moved[9][0].knots[0];
+        let SingleKnot { angle, path, .. } = knot.single();
+        *knot = SingleKnot { angle: angle + 1e-3, path: path - 0.4e-3, ..knot.single() }.into();
+        assert!(azimuthal_smoothness(&moved, X) < 1e-3 * X * 1e-3);
+    }
+
+    #[test]
+    fn waves_are_compared_by_their_amplitudes() {
+        let jump = |phi: f64| [1.0, if phi > 1.5 { 1.0 } else { 0.5 }];
+        assert!(azimuthal_smoothness(&planes(Kind::Wave, jump), X) > 0.1);
+        assert!(azimuthal_smoothness(&planes(PLAIN, jump), X) < 1e-9);
+        let mut mixed = planes(PLAIN, |_| [1.0, 1.0]);
+        mixed[3][0].kind = Kind::Wave;
+        assert_eq!(azimuthal_smoothness(&mixed, X), f64::INFINITY);
+    }
+}

@@ -77,3 +77,25 @@ impl FoldLayout {
         Self { integral: self.integral.as_ref().map(between), ..*self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twice the knots stand between those of before; the reach of a fold stays.
+    #[test]
+    fn a_finer_fold_has_knots_half_way() {
+        let fold = FoldLayout {
+            dark: 0.1,
+            lit: 0.2,
+            per_angle: 40.0,
+            integral: Some(vec![-0.1, 0.0, 0.05, 0.2]),
+        };
+        let finer = fold.finer();
+        let expected = [-0.1, -0.05, 0.0, 0.025, 0.05, 0.125, 0.2];
+        let found = finer.integral.unwrap();
+        assert!(found.len() == 7 && found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-15));
+        assert_eq!((finer.dark, finer.lit, finer.per_angle), (0.1, 0.2, 40.0));
+        assert!(FoldLayout { integral: None, ..fold }.finer().integral.is_none());
+    }
+}

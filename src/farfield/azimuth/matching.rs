@@ -269,3 +269,60 @@ fn fill_missing(mut planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment
     }
     planes.into_iter().collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::farfield::branch::knots::CHANNELS;
+    use crate::shape::Shape;
+
+    const PLAIN: Kind = Kind::Plain { focal_lines: 2, from_axis: true };
+
+    fn plane(value: f64) -> Option<Vec<Segment>> {
+        let mut knot = Knot::default();
+        *knot.channels_mut() = [value; CHANNELS];
+        Some(vec![Segment { kind: PLAIN, knots: vec![knot; 2] }])
+    }
+
+    /// Some missing planes are filled from their neighbours, as many as one in ten.
+    #[test]
+    fn missing_planes_are_filled_in_between() {
+        let planes = |missing: &[usize]| {
+            let of = |k: usize| if missing.contains(&k) { None } else { plane(k as f64) };
+            fill_missing((0..20).map(of).collect())
+        };
+        for missing in [vec![], vec![7], vec![7, 8], vec![3, 15]] {
+            let filled = planes(&missing).unwrap();
+            for (k, plane) in filled.iter().enumerate() {
+                assert!(
+                    (plane[0].knots[1].channels()[5] - k as f64).abs() < 1e-14,
+                    "{missing:?} {k}"
+                );
+            }
+        }
+        // too many, or none on one side
+        assert!(planes(&[4, 9, 12]).is_none() && planes(&[0]).is_none() && planes(&[19]).is_none());
+        let mut differing: Vec<_> = (0..20).map(|k| plane(f64::from(k))).collect();
+        differing[5] = None;
+        differing[6].as_mut().unwrap()[0].kind = Kind::Wave;
+        assert!(fill_missing(differing).is_none());
+    }
+
+    /// Last rays that differ are cut off a little before the first of them.
+    #[test]
+    fn planes_are_cut_before_last_rays_that_differ() {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, 1.333.into(), 1000.0, 1);
+        let silhouette = shape.silhouette();
+        let plane = ScatteringPlane::new(&tracer, 1, 0.0, [0.0; 2]);
+        let ends =
+            |a: f64, b: f64| [a, b].map(|alpha| plane.node(&silhouette, alpha, 0.0, 0.0).unwrap());
+        let (one, other) = (ends(0.2, 1.4), ends(0.3, 1.2));
+        let cut = before_the_ends([&one, &other].into_iter()).unwrap();
+        assert!((cut - (1.2 - 0.04 * 0.9)).abs() < 1e-14, "{cut}");
+        assert!(before_the_ends([&one, &one].into_iter()).is_none());
+        // too little would be left
+        let short = ends(1.19, 1.21);
+        assert!(before_the_ends([&one, &short].into_iter()).is_none());
+    }
+}

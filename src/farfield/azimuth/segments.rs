@@ -213,3 +213,37 @@ fn pair_knot(fold: &Fold, series: &Chebyshev<PAIR_CHANNELS>, delta: f64) -> Knot
     };
     knot.into()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// From 0 to 1, ever further, and steps that vanish at the ends asked for.
+    #[test]
+    fn graded_steps_get_closer_where_asked() {
+        for closer in [[false, false], [false, true], [true, false], [true, true]] {
+            let at = |k: u32| graded(f64::from(k) / 100.0, closer);
+            assert_eq!((at(0), at(100)), (0.0, 1.0));
+            assert!((1..=100).all(|k| at(k) > at(k - 1)));
+            for (first, last, closer) in [(1, 0, closer[0]), (100, 99, closer[1])] {
+                let step = at(first) - at(last);
+                assert!(if closer { step < 5e-4 } else { step > 5e-3 }, "{closer:?} {step}");
+            }
+        }
+    }
+
+    /// Rays beyond the taper keep all, rays at the edge nothing; between, the real part is the complement
+    /// of the weight, and the next term falls with the size parameter.
+    #[test]
+    fn reflected_rays_keep_what_the_edge_wave_leaves() {
+        let edge = Window { start: 0.6, full: 0.9 };
+        let at = |cos: f64, x: f64| reflected_share(&edge, 2.0 * cos.acos(), x);
+        assert_eq!(at(0.5, 100.0), Complex64::from(1.0));
+        assert_eq!(at(0.95, 100.0), Complex64::default());
+        for cos in [0.65, 0.75, 0.85] {
+            let (small, large) = (at(cos, 100.0), at(cos, 1000.0));
+            assert!((small.re - (1.0 - edge.weight(cos))).abs() < 1e-12);
+            assert!((small.im - 10.0 * large.im).abs() < 1e-12 && small.im != 0.0);
+        }
+    }
+}

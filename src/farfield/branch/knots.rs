@@ -256,17 +256,34 @@ mod tests {
         assert_eq!(segment.knots[0].single(), before);
     }
 
-    /// Parabolas are exact for parabolas, also at the ends and at uneven steps.
+    fn of_all(angle: f64, value: f64) -> Knot {
+        Knot(std::array::from_fn(|c| if c == 0 { angle } else { value * c as f64 }))
+    }
+
+    /// Uneven knots, both ends included; descending ones too.
     #[test]
-    fn slopes_of_a_parabola() {
-        let angles = [0.1, 0.25, 0.3, 0.7];
-        let knots: Vec<Knot> = angles.iter().map(|&angle| single(angle).into()).collect();
-        for (slope, angle) in parabola_slopes(&knots).iter().zip(angles) {
-            assert!((slope.single().path - 2.0 * angle).abs() < 1e-12);
-            assert!((slope.angle() - 1.0).abs() < 1e-12);
+    fn slopes_of_parabolas_are_exact() {
+        let mut knots: Vec<Knot> = [0.2, 0.3, 0.7, 0.75, 1.6]
+            .iter()
+            .map(|&t: &f64| of_all(t, 1.0 - 2.0 * t + 3.0 * t * t))
+            .collect();
+        for _ in 0..2 {
+            for (knot, slope) in knots.iter().zip(parabola_slopes(&knots)) {
+                assert!((slope.angle() - 1.0).abs() < 1e-12);
+                for (c, slope) in slope.0.iter().enumerate().skip(1) {
+                    let exact = c as f64 * (6.0 * knot.angle() - 2.0);
+                    assert!((slope - exact).abs() < 1e-10, "{slope} {exact}");
+                }
+            }
+            knots.reverse();
         }
-        let two = parabola_slopes(&knots[..2]);
-        assert!((two[0].single().path - 0.35).abs() < 1e-12);
+    }
+
+    #[test]
+    fn two_knots_have_the_slope_of_their_line() {
+        let slopes = parabola_slopes(&[of_all(0.5, 1.0), of_all(1.0, 4.0)]);
+        assert_eq!(slopes.len(), 2);
+        assert!(slopes.iter().all(|slope| slope.0[1] == 6.0 && slope.0[2] == 12.0));
     }
 
     #[test]

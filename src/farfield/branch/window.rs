@@ -35,3 +35,39 @@ impl Window {
         [w, w1 / width, w2 / (width * width)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WINDOW: Window = Window { start: -0.4, full: 1.1 };
+
+    /// What one window leaves its mirror image takes: rays and integral together count once.
+    #[test]
+    fn a_window_and_its_mirror_image_add_up_to_one() {
+        for k in 0..=60 {
+            let place = -0.6 + f64::from(k) * 0.03;
+            let mirrored = WINDOW.start + WINDOW.full - place;
+            assert!(
+                (WINDOW.weight(place) + WINDOW.weight(mirrored) - 1.0).abs() < 1e-15,
+                "{place}"
+            );
+        }
+        assert_eq!((WINDOW.weight(-0.4), WINDOW.weight(0.35), WINDOW.weight(1.1)), (0.0, 0.5, 1.0));
+    }
+
+    #[test]
+    fn the_weight_rises_and_its_derivatives_are_its_own() {
+        const H: f64 = 1e-5;
+        let mut before = 0.0;
+        for k in 1..50 {
+            let place = WINDOW.start + f64::from(k) * 0.03;
+            let [weight, slope, bend] = WINDOW.with_derivatives(place);
+            assert!(weight >= before, "{place}");
+            before = weight;
+            let (a, b) = (WINDOW.with_derivatives(place - H), WINDOW.with_derivatives(place + H));
+            assert!(((b[0] - a[0]) / (2.0 * H) - slope).abs() < 1e-8, "{place}");
+            assert!(((b[1] - a[1]) / (2.0 * H) - bend).abs() < 1e-7, "{place}");
+        }
+    }
+}

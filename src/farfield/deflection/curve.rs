@@ -177,3 +177,81 @@ impl<'a> DeflectionCurve<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use crate::trace::Tracer;
+
+    fn with_curve(shape: &Shape, index: f64, order: u32, test: impl FnOnce(&DeflectionCurve)) {
+        let tracer = Tracer::new(shape, index.into(), 1000.0, order);
+        let silhouette = shape.silhouette().tabulated();
+        let centre = super::super::scattering_plane::axial_ray(&tracer, order);
+        let plane = ScatteringPlane::new(&tracer, order, 0.5, centre);
+        let scan = Scan { nodes: 64 + 16 * order as usize, axis_gap: 0.02, limit: FRAC_PI_2 };
+        test(&DeflectionCurve::new(plane, &silhouette, scan).unwrap());
+    }
+
+    /// Landmarks of water drops: no fold up to order 1, one from order 2 on, and the crossings of the
+    /// axis before it; the same on a slightly flattened drop.
+    #[test]
+    fn landmarks_are_those_of_the_deflection() {
+        let flattened = Shape::spheroid(0.995, 0.4).unwrap();
+        for (order, signature) in
+            [(0, "AE"), (1, "AE"), (2, "AfE"), (3, "AfE"), (4, "AXfE"), (6, "AXXfE")]
+        {
+            with_curve(&Shape::sphere(), 1.333, order, |curve| {
+                assert_eq!(curve.signature(), signature, "{order}");
+            });
+            if order < 4 {
+                with_curve(&flattened, 1.333, order, |curve| {
+                    assert_eq!(curve.signature(), signature, "{order}");
+                });
+            }
+        }
+    }
+
+    #[test]
+    fn landmarks_stand_where_descartes_has_them() {
+        with_curve(&Shape::sphere(), 1.333, 2, |curve| {
+            let bow = (1.0 - (1.333f64 * 1.333 - 1.0) / 3.0).sqrt();
+            let launches: Vec<f64> =
+                curve.landmarks.iter().map(|mark| curve.launch(mark).unwrap()).collect();
+            assert_eq!(launches[0], 0.0);
+            assert!((launches[1] - bow).abs() < 1e-9 && launches[2] > 0.999_999);
+            let (number, fold) = curve.numbered_folds().next().unwrap();
+            assert!(number == 1 && fold.lit == -1.0);
+            // room to the axial ray is 42°, to the last ray 14°: the lesser counts
+            let [(strength, room)] = curve.folds(0.02)[..] else { panic!("one fold") };
+            let last = PI - PI + 4.0 * (1.0f64 / 1.333).asin();
+            assert!((room - (fold.angle - last)).abs() < 1e-3, "{room}");
+            // van de Hulst 1957, sec. 13.2: h = (p² - 1)²/p² √((p² - n²)/(n² - 1)³), p one more than his
+            let n: f64 = 1.333 * 1.333;
+            let h = 9.0 / 4.0 * ((4.0 - n) / (n - 1.0).powi(3)).sqrt();
+            assert!((strength * h.cbrt() - 1.0).abs() < 2e-3, "{strength}");
+        });
+    }
+
+    /// From a ray before the bow the angle goes to the bow and part of the way back.
+    #[test]
+    fn reaches_tell_the_farthest_and_the_last_ray() {
+        with_curve(&Shape::sphere(), 1.333, 3, |curve| {
+            let angle = |b: f64| 6.0 * (b / 1.333).asin() - 2.0 * b.asin();
+            let bow = (1.0 - (1.333f64 * 1.333 - 1.0) / 8.0).sqrt();
+            let [farthest, last] = curve.reaches(0.7, 0.9).unwrap();
+            assert!((farthest - (angle(bow) - angle(0.7))).abs() < 1e-4, "{farthest}");
+            assert!((last - (angle(1.0) - angle(0.7))).abs() < 1e-3, "{last}");
+            assert!((curve.ray_at(0.8).unwrap().angle - angle(0.8)).abs() < 1e-12);
+        });
+    }
+
+    /// In a lighter medium the curve ends where nothing enters.
+    #[test]
+    fn total_reflection_ends_the_curve() {
+        with_curve(&Shape::sphere(), 0.75, 1, |curve| {
+            assert_eq!(curve.signature(), "AE");
+            assert!((curve.last_ray().alpha - 0.75f64.asin()).abs() < 1e-8);
+        });
+    }
+}

@@ -145,3 +145,83 @@ impl<'a> ScannedRays<'a> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use crate::trace::Tracer;
+
+    /// Unwrapped angle of a sphere's ray.
+    fn angle(index: f64, order: u32, alpha: f64) -> f64 {
+        let axis = if order % 2 == 1 { 0.0 } else { std::f64::consts::PI };
+        axis + 2.0 * (f64::from(order) * (alpha.sin() / index).asin() - alpha)
+    }
+
+    fn with_rays(index: f64, order: u32, test: impl FnOnce(&ScannedRays)) {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, index.into(), 100.0, order);
+        let silhouette = shape.silhouette();
+        let plane = ScatteringPlane::new(&tracer, order, 0.3, [0.0; 2]);
+        let scan = Scan { nodes: 96, axis_gap: 0.02, limit: FRAC_PI_2 };
+        test(&ScannedRays::new(plane, &silhouette, scan).unwrap());
+    }
+
+    #[test]
+    fn rays_are_found_by_launch_and_by_angle() {
+        with_rays(1.333, 2, |rays| {
+            for alpha in [0.05, 0.6, 1.2] {
+                let node = rays.interpolated(alpha).unwrap();
+                assert!((node.angle - angle(1.333, 2, alpha)).abs() < 1e-12);
+            }
+            // an angle near the bow has two rays, one before and one beyond it
+            let wanted = angle(1.333, 2, 0.9);
+            let bow = (1.0 - (1.333f64 * 1.333 - 1.0) / 3.0).sqrt().asin();
+            let inner = rays.at_angle(wanted, bow, false).unwrap();
+            let outer = rays.at_angle(wanted, bow, true).unwrap();
+            assert!((inner.alpha - 0.9).abs() < 1e-11 && outer.alpha > bow + 0.1);
+            assert!((angle(1.333, 2, outer.alpha) - wanted).abs() < 1e-11);
+        });
+    }
+
+    #[test]
+    fn edges_of_segments_are_rays() {
+        with_rays(1.333, 4, |rays| {
+            let end = rays.find(Edge::Alpha(0.4), true).unwrap();
+            assert_eq!(rays.find(Edge::Last(Box::new(end)), false).unwrap().angle, end.angle);
+            // this order crosses the forward axis before its bow
+            let axis = std::f64::consts::TAU;
+            let edge = Edge::Axis { axis, gap: 0.05 };
+            let before = rays.find(edge.clone(), false).unwrap();
+            let behind = rays.find(edge, true).unwrap();
+            assert!((before.angle - (axis - 0.05)).abs() < 1e-12);
+            assert!((behind.angle - (axis + 0.05)).abs() < 1e-12);
+            assert!((angle(1.333, 4, behind.alpha) - behind.angle).abs() < 1e-11);
+            let near = Edge::Angle { angle: axis - 0.3, near: before.alpha };
+            assert!(rays.find(near, false).unwrap().alpha < before.alpha);
+        });
+    }
+
+    /// In a lighter medium rays enter up to `sin α = n`.
+    #[test]
+    fn the_last_ray_is_where_total_reflection_begins() {
+        with_rays(0.75, 1, |rays| {
+            let step = FRAC_PI_2 / 96.0;
+            let last = *rays.nodes.iter().rfind(|n| n.alpha < 0.75f64.asin()).unwrap();
+            let end = rays.end_after(last, step);
+            assert!((end.alpha - 0.75f64.asin()).abs() < 1e-8, "{}", end.alpha);
+        });
+    }
+
+    /// Just outside the nodes Newton's method goes on.
+    #[test]
+    fn rays_beyond_the_scan_are_found() {
+        with_rays(1.333, 1, |rays| {
+            let beyond = 0.5 * rays.nodes[0].alpha;
+            let wanted = angle(1.333, 1, beyond);
+            let node = rays.at_angle(wanted, 0.0, true).unwrap();
+            assert!((node.alpha - beyond).abs() < 1e-9 && node.angle == wanted);
+            assert!(rays.beyond_scan(-2.9, 1.2).is_none());
+        });
+    }
+}

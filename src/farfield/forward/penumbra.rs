@@ -253,3 +253,82 @@ impl Penumbra {
 fn widening(theta: f64) -> f64 {
     if theta < 1e-6 { 1.0 } else { (theta / theta.sin().max(0.2 * theta)).sqrt() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::penumbra_layout::near_axis;
+    use super::*;
+    use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
+    use crate::series::debye::{DebyeSeries, Term};
+    use crate::shape::Shape;
+
+    /// The wave about the axis is the Debye series' shadow and external reflection; of a
+    /// sphere it has no S3 and S4, in any plane.
+    #[test]
+    fn near_the_axis_it_is_shadow_and_reflection_of_the_series() {
+        let (x, index) = (500.0, Complex64::new(1.333, 0.0));
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, index, x, 0);
+        let wave = Penumbra::new(&tracer, &ForwardDiffraction::new(&shape), x).unwrap();
+        let theta = [0.0, 0.002, 0.01, 0.05];
+        let exact =
+            DebyeSeries::new(x, index).unwrap().sum(&[Term::Diffraction, Term::Order(0)], &theta);
+        for (theta, (s1, s2)) in theta.into_iter().zip(exact) {
+            let found = wave.near_axis(&Direction::new(theta, 0.8));
+            // the peak falls off like a disc's
+            let size = 0.5 * x * x / (1.0 + x * theta).powf(1.5);
+            assert!((found.s1 - s1).norm() < 2e-3 * size, "{theta}: {} {s1}", found.s1);
+            assert!((found.s2 - s2).norm() < 2e-3 * size, "{theta}: {} {s2}", found.s2);
+            assert!(found.s3.norm() + found.s4.norm() < 1e-6 * size, "{theta}");
+        }
+    }
+
+    /// Where the segments of a plane begin they are the integral along the outline: the waves of the near edge
+    /// and of the far one.
+    #[test]
+    fn segments_go_on_from_the_axis() {
+        let x = 2000.0;
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, 1.333.into(), x, 0);
+        let wave = Penumbra::new(&tracer, &ForwardDiffraction::new(&shape), x).unwrap();
+        // the first is the end of the integral along the outline, the others span a fringe
+        let edge = near_axis(x);
+        let theta: Vec<f64> = (0..20).map(|k| edge * (1.0 + 1e-6 + 0.003 * f64::from(k))).collect();
+        let samples = Samples::new(&theta);
+        let mut sums = Sums::new(&samples);
+        for segment in wave.segments(0.0) {
+            for side in [Side::Near, Side::Far] {
+                add_segment(&mut sums, &samples, &segment, side, x);
+            }
+        }
+        let found = sums.amplitudes();
+        let size = found.iter().map(|s| s.s1.norm()).fold(0.0, f64::max);
+        let whole = wave.near_axis(&Direction::new(theta[0], 0.0));
+        assert!((found[0].s1 - whole.s1).norm() < 2e-3 * size, "{} {}", found[0].s1, whole.s1);
+        assert!((found[0].s2 - whole.s2).norm() < 2e-3 * size, "{} {}", found[0].s2, whole.s2);
+    }
+
+    /// Rings on a sphere of directions are wider than on a plane.
+    #[test]
+    fn waves_widen_towards_the_equator() {
+        assert_eq!(widening(0.0), 1.0);
+        assert!((widening(1.0) - (1.0 / 1.0f64.sin()).sqrt()).abs() < 1e-15);
+        assert!((widening(PI) - 5f64.sqrt()).abs() < 1e-12);
+    }
+
+    /// A clear medium absorbs nothing; a dyed one more than its rays tell, less and less so for large
+    /// particles.
+    #[test]
+    fn waves_beyond_the_edge_are_absorbed_too() {
+        let more = |x: f64, k: f64| {
+            let index = Complex64::new(1.333, k);
+            let shape = Shape::sphere();
+            let tracer = Tracer::new(&shape, index, x, 0);
+            let shadow = ForwardDiffraction::new(&shape);
+            Penumbra::new(&tracer, &shadow, x).unwrap().absorption(index)
+        };
+        assert_eq!(more(500.0, 0.0), 0.0);
+        let (small, large) = (more(500.0, 1e-3), more(5000.0, 1e-4));
+        assert!(small > large && large > 0.0 && small < 0.1 * PI, "{small} {large}");
+    }
+}

@@ -104,3 +104,47 @@ fn beyond_axis(x: f64, reach: f64) -> Vec<f64> {
 pub fn near_axis(size_parameter: f64) -> f64 {
     (20.0 * PI / size_parameter).min(PI)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The nodes integrate polynomials over the taper and the tunnel, on both sides of the edge.
+    #[test]
+    fn nodes_integrate_over_taper_and_tunnel() {
+        for x in [60.0f64, 1000.0, 3e4] {
+            let layout = Layout::new(x);
+            let start = layout.taper.start;
+            let from = (start - 0.3 * (1.0 - start)).max(0.01);
+            let to = 1.0 + 2.6 * x.powf(-2.0 / 3.0);
+            let sum = |f: fn(f64) -> f64| layout.nodes.iter().map(|(b, w)| w * f(*b)).sum::<f64>();
+            assert!((sum(|_| 1.0) - (to - from)).abs() < 1e-13, "{x}");
+            assert!((sum(|b| b.powi(4)) - (to.powi(5) - from.powi(5)) / 5.0).abs() < 1e-12, "{x}");
+            // no node upon the edge, where the cosine's square root begins
+            assert!(layout.nodes.iter().all(|(b, _)| (b - 1.0).abs() > 1e-9));
+            assert!(start < layout.taper.full && layout.taper.full < 1.0);
+        }
+    }
+
+    /// Knots: even about the axis, then from exactly there outward on either side.
+    #[test]
+    fn angles_cover_the_axis_and_both_sides() {
+        for x in [60.0, 1000.0, 3e4] {
+            let layout = Layout::new(x);
+            let (axial, rest) = layout.angles.split_at(layout.about_axis);
+            let edge = near_axis(x);
+            assert!(
+                (axial[0] + edge).abs() < 1e-12 && (axial[axial.len() - 1] - edge).abs() < 1e-12
+            );
+            let step = axial[1] - axial[0];
+            assert!(axial.windows(2).all(|w| (w[1] - w[0] - step).abs() < 1e-12));
+            let (near, far) = rest.split_at(layout.near_side);
+            for side in [near.to_vec(), far.iter().map(|a| -a).collect::<Vec<_>>()] {
+                assert!(side.first().is_none_or(|&first| first == edge), "{x}");
+                assert!(side.windows(2).all(|w| w[0] < w[1] && w[1] - w[0] <= 0.08 * w[0] + 1e-12));
+            }
+        }
+        assert!(beyond_axis(1000.0, 0.01).is_empty());
+        assert_eq!(beyond_axis(1000.0, 0.5).last(), Some(&0.5));
+    }
+}

@@ -240,3 +240,70 @@ fn integrand(
     integrand.fill_lanes();
     Some(integrand)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use crate::trace::Tracer;
+
+    /// Where the edge of a spheroid lies, seen from the side: half axes and radii of curvature of its
+    /// ellipses.
+    #[test]
+    fn edges_of_spheroids_are_known() {
+        let ratio: f64 = 0.85;
+        let (h, v) = (ratio.powf(-1.0 / 3.0), ratio.powf(2.0 / 3.0));
+        let (sphere, flat) = (Shape::sphere(), Shape::spheroid(ratio, 0.0).unwrap());
+        for (shape, azimuth, support, radius) in [
+            (&sphere, 0.4, 1.0, 1.0),
+            (&flat, 0.0, v, h * h / v),
+            (&flat, std::f64::consts::FRAC_PI_2, h, h),
+        ] {
+            let tracer = Tracer::new(shape, 1.333.into(), 100.0, 0);
+            let plane = ScatteringPlane::new(&tracer, 0, azimuth, [0.0; 2]);
+            let edge = edge_of(&plane, &shape.silhouette()).unwrap();
+            assert!((edge.support - support).abs() < 1e-6, "{edge:?} {support}");
+            assert!((edge.radius - radius).abs() < 1e-6, "{edge:?} {radius}");
+            assert!(edge.depth.abs() < 1e-6, "{edge:?}");
+        }
+    }
+
+    #[test]
+    fn paths_have_their_slopes_and_a_sphere_s_are_known() {
+        const H: f64 = 1e-6;
+        let edge = Edge { support: 1.1, depth: -0.2, radius: 0.9 };
+        for angle in [-0.5, 0.3, 1.2] {
+            for path in [Edge::path, Edge::reflected_path] {
+                let ([before, _], [after, _]) = (path(&edge, angle - H), path(&edge, angle + H));
+                assert!(((after - before) / (2.0 * H) - path(&edge, angle)[1]).abs() < 1e-9);
+            }
+        }
+        let sphere = Edge { support: 1.0, depth: 0.0, radius: 1.0 };
+        assert!((sphere.path(0.4)[0] + 0.4).abs() < 1e-15);
+        assert!((sphere.reflected_path(0.4)[0] + 2.0 * 0.2f64.sin()).abs() < 1e-15);
+    }
+
+    /// From the centre of the circle that touches the edge the rays of a sphere have impact
+    /// `cos θ/2`, no path of their own, and the spreading of their impact.
+    #[test]
+    fn rays_of_a_sphere_are_the_circle_s() {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, 1.333.into(), 100.0, 0);
+        let plane = ScatteringPlane::new(&tracer, 0, 0.0, [0.0; 2]);
+        let silhouette = shape.silhouette();
+        let edge = Edge { support: 1.0, depth: 0.0, radius: 1.0 };
+        let mut rays = Reflections::new(&plane, &silhouette);
+        for angle in [1.0, 0.5, 0.2f64] {
+            let (_, exit) = rays.at(angle).unwrap();
+            let seen = Seen::new(&plane, &edge, angle, &exit);
+            assert!((seen.cos - (0.5 * angle).cos()).abs() < 1e-12);
+            // W = -2 sin θ/2, and L = W + βθ + 2 (sin γ - γ cos γ) = 0
+            assert!(seen.path.abs() < 1e-12, "{}", seen.path);
+            assert!((seen.spreading - seen.cos).abs() < 1e-11, "{}", seen.spreading);
+        }
+        let layout = Layout::new(1000.0);
+        let channels = channels(&plane, &silhouette, &layout, &edge).unwrap();
+        let ([ratio, path, spreading], _) = channels.at(0.3);
+        assert!((ratio - 1.0).abs() + path.abs() + (spreading - 1.0).abs() < 1e-7);
+    }
+}

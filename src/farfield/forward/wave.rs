@@ -51,3 +51,28 @@ impl ForwardWave<'_> {
 fn isotropic(amplitude: Complex64) -> AmplitudeMatrix {
     AmplitudeMatrix { s1: amplitude, s2: amplitude, ..Default::default() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use std::f64::consts::TAU;
+
+    /// Without an edge wave the sharp shadow stands for all: its peak, and its fading tail.
+    #[test]
+    fn a_sharp_shadow_has_peak_and_tail() {
+        let shadow = ForwardDiffraction::new(&Shape::spheroid(0.9, 0.3).unwrap());
+        let x = 400.0;
+        let wave = ForwardWave { shadow: &shadow, edge: None, size_parameter: x };
+        let ahead = wave.peak(&Direction::new(0.0, 0.0));
+        assert!((ahead.s1 - x * x * shadow.area() / TAU).norm() < 1e-9 * x * x);
+        assert_eq!((ahead.s1, ahead.s3), (ahead.s2, Complex64::default()));
+        let theta: Vec<f64> = (0..=314).map(|k| 0.01 * f64::from(k)).collect();
+        let tails = wave.tails(&theta, 0.4);
+        assert!(tails.len() < theta.len() && theta[tails.len()] >= shadow.farthest(x));
+        for (tail, &theta) in tails.iter().zip(&theta) {
+            let one = wave.beside_planes(&Direction::new(theta, 0.4));
+            assert!((tail.s1 - one.s1).norm() <= 1e-9 * one.s1.norm(), "{theta}");
+        }
+    }
+}

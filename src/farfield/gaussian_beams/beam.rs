@@ -200,3 +200,105 @@ fn lines_ahead(moved: [Vec3<f64>; 2], turned: [Vec3<f64>; 2], s: Vec3<f64>) -> u
     let half = -0.5 * (b + b.signum() * discriminant.sqrt());
     ahead(half / a) + ahead(c / half)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{RaindropModel, Shape};
+    use crate::trace::Tracer;
+
+    #[test]
+    fn forms_are_inverse_and_root_of_their_matrix() {
+        let m = [0.7, -2.3, 1.1];
+        let form = Form::new(m);
+        let entry = |m: f64| Complex64::new(1.0 / (WIDTH * WIDTH), -m);
+        let (a, b, c) = (entry(m[0]), entry(m[1]), Complex64::new(0.0, -m[2]));
+        assert!((form.root * form.root - (a * b - c * c)).norm() < 1e-13);
+        // the root is continuous from that of a matrix without imaginary part
+        let mut before = Form::new([0.0; 3]).root;
+        assert!((before - 1.0 / (WIDTH * WIDTH)).norm() < 1e-14);
+        for k in 1..=100 {
+            let next = Form::new(m.map(|m| m * f64::from(k) * 0.1)).root;
+            assert!((next - before).norm() < (next + before).norm(), "{k}");
+            before = next;
+        }
+        let [x, y, z] = form.inverse;
+        for (value, expected) in
+            [(a * x + c * z, 1.0), (a * z + c * y, 0.0), (c * x + b * z, 0.0), (c * z + b * y, 1.0)]
+        {
+            assert!((value - expected).norm() < 1e-14, "{value}");
+        }
+        let q = [0.3, -0.8];
+        let over = x * q[0] * q[0] + y * q[1] * q[1] + z * 2.0 * q[0] * q[1];
+        assert!((form.over(q) - over).norm() < 1e-14);
+    }
+
+    #[test]
+    fn frames_are_across_their_direction() {
+        for s in [Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -1.0, 0.0)] {
+            let [a, b] = frame(s);
+            assert!(a.dot(s).abs() + b.dot(s).abs() + a.dot(b).abs() < 1e-15);
+            assert!((a.dot(a) - 1.0).abs() + (b.dot(b) - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// A bundle with foci ahead of the plane through the centre, or behind it.
+    #[test]
+    fn lines_ahead_are_counted() {
+        let s = Vec3::new(0.0, 0.0, 1.0);
+        let lines = |f: f64, g: f64| {
+            let (a, b) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0));
+            lines_ahead([a, b], [a * (-1.0 / f), b * (-1.0 / g)], s)
+        };
+        assert_eq!((lines(1.0, 3.0), lines(-1.0, 3.0), lines(-1.0, -3.0)), (2, 1, 0));
+    }
+
+    fn beam(x: f64) -> Beam {
+        let shape = Shape::raindrop(0.8e-3, RaindropModel::BeardChuang1987, 0.4).unwrap();
+        let silhouette = shape.silhouette();
+        let tracer = Tracer::new(&shape, 1.333.into(), x, 2);
+        let at = |y: [f64; 2]| {
+            let launch = Launch::at(&silhouette, y).unwrap();
+            let exit = tracer.trace_order(launch.point[0], launch.point[1], 2).unwrap();
+            (launch, exit)
+        };
+        let (launch, exit) = at([0.4, 0.3]);
+        let beside = |a: f64, b: f64| {
+            let (launch, exit) = at([0.4 + a, 0.3 + b]);
+            moved(&exit, &launch)
+        };
+        let around =
+            [[beside(-APART, 0.0), beside(APART, 0.0)], [beside(0.0, -APART), beside(0.0, APART)]];
+        // the foot on the ray moves with the launch point
+        for (k, [before, after]) in
+            [[[-1e-5, 0.0], [1e-5, 0.0]], [[0.0, -1e-5], [0.0, 1e-5]]].into_iter().enumerate()
+        {
+            let foot = |d: [f64; 2]| at([0.4 + d[0], 0.3 + d[1]]).1.reference;
+            let off = (foot(after) - foot(before)) * 0.5e5 - moved(&exit, &launch)[k];
+            assert!(off.dot(off).sqrt() < 1e-6, "{off:?}");
+        }
+        Beam::new(&exit, &launch, &around, x).unwrap()
+    }
+
+    /// A beam is strongest along its ray, falls off on all sides, and ends at its reach.
+    #[test]
+    fn beams_fall_off_about_their_ray() {
+        let x = 4000.0;
+        let beam = beam(x);
+        let s = beam.direction;
+        let (theta, phi) = (s.x.hypot(s.y).atan2(s.z), s.y.atan2(s.x));
+        let size = |a: f64, b: f64| {
+            let direction = Direction::new(theta + a, phi + b / theta.sin());
+            beam.towards(&direction, x).map_or(0.0, |wave| wave.s11().sqrt())
+        };
+        let middle = size(0.0, 0.0);
+        for (a, b) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.7, 0.7)] {
+            let along = |share: f64| size(a * share * beam.reach, b * share * beam.reach);
+            assert!(along(0.2) < middle && along(0.5) < along(0.2), "{a} {b}");
+            assert_eq!(along(1.01), 0.0);
+        }
+        // along the ray: all of its strength over the root of the form
+        let whole = beam.strength() / 2f64.sqrt() / Form::new(beam.bend).root.norm();
+        assert!((middle / whole - 1.0).abs() < 0.02, "{middle} {whole}");
+    }
+}

@@ -44,3 +44,48 @@ impl Launch {
         self.columns.map(|[a, b]| by_point[0] * a + by_point[1] * b)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+
+    /// Derivatives of launch points by differences, and their determinant.
+    #[test]
+    fn derivatives_are_those_of_neighbouring_points() {
+        const H: f64 = 1e-6;
+        let shape = Shape::spheroid(0.8, 0.4).unwrap();
+        let silhouette = shape.silhouette();
+        for y in [[0.3, 0.2], [-0.5, 0.6], [0.1, -0.97]] {
+            let at = |a: f64, b: f64| Launch::at(&silhouette, [y[0] + a, y[1] + b]).unwrap();
+            let launch = at(0.0, 0.0);
+            for (k, (a, b)) in [(H, 0.0), (0.0, H)].into_iter().enumerate() {
+                let (before, behind) = (at(-a, -b).point, at(a, b).point);
+                for (c, column) in launch.columns[k].into_iter().enumerate() {
+                    let rate = (behind[c] - before[c]) / (2.0 * H);
+                    assert!((rate - column).abs() < 1e-7, "{y:?} {k} {c}: {rate} {column}");
+                }
+            }
+            let [[a, b], [c, d]] = launch.columns;
+            assert!((a * d - b * c - launch.determinant).abs() < 1e-12, "{y:?}");
+        }
+    }
+
+    /// The unit disc of `y` is the whole shadow.
+    #[test]
+    fn the_disc_covers_the_shadow() {
+        let shape = Shape::sphere();
+        let silhouette = shape.silhouette();
+        assert!(Launch::at(&silhouette, [0.8, 0.7]).is_none());
+        let last = Launch::at(&silhouette, [0.6, 0.79999]).unwrap().point;
+        assert!((last[0].hypot(last[1]) - 1.0).abs() < 1e-5);
+        const STEPS: usize = 200;
+        let h = 1.0 / STEPS as f64;
+        let ring = |k: usize| {
+            let t = (k as f64 + 0.5) * h;
+            std::f64::consts::TAU * t * h * Launch::at(&silhouette, [t, 0.0]).unwrap().determinant
+        };
+        let area: f64 = (0..STEPS).map(ring).sum();
+        assert!((area / std::f64::consts::PI - 1.0).abs() < 1e-3, "{area}");
+    }
+}

@@ -208,3 +208,86 @@ fn sectors(beam: &Beam, mut visit: impl FnMut(usize)) {
         visit(sector.rem_euclid(SECTORS as i64) as usize);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::series::debye::{DebyeSeries, Term};
+    use crate::shape::{RaindropModel, Shape};
+
+    #[test]
+    fn half_planes_tell_which_rays_come_near() {
+        let planes = HalfPlanes::new(&[0.5]);
+        let ray = |theta: f64, phi: f64| Direction::new(theta, phi).unit;
+        assert!(planes.near(ray(1.0, 0.5), 0.01) && planes.near(ray(1.0, -0.5), 0.01));
+        assert!(!planes.near(ray(1.0, 0.5 + PI), 0.1) && !planes.near(ray(1.0, 0.7), 0.1));
+        assert!(planes.near(ray(1.0, 0.7), 0.3));
+        // about the axis every plane is near
+        assert!(planes.near(ray(0.05, 3.0), 0.1));
+        assert!(HalfPlanes::new(&[0.0; 41]).near(ray(1.0, 2.0), 0.0));
+    }
+
+    #[test]
+    fn sectors_cover_the_turn() {
+        assert_eq!(
+            (sector_of(0.0), sector_of(-1e-9), sector_of(PI)),
+            (0, SECTORS - 1, SECTORS / 2)
+        );
+        assert_eq!(sector_of(-f64::MIN_POSITIVE), SECTORS - 1);
+        let shape = Shape::sphere();
+        let silhouette = shape.silhouette();
+        let tracer = Tracer::new(&shape, 1.333.into(), 3000.0, 1);
+        for (place, all) in [([0.5, 0.3], false), ([0.013, 0.011], true)] {
+            let beams = beams_at(&tracer, &silhouette, &[1], place, 3000.0, |_| true);
+            let [(1, beam)] = &beams[..] else { panic!("one beam") };
+            let mut reached = Vec::new();
+            sectors(beam, |sector| reached.push(sector));
+            let own = sector_of(beam.direction.y.atan2(beam.direction.x));
+            assert!(reached.contains(&own));
+            assert_eq!(reached.len() == SECTORS, all, "{} sectors", reached.len());
+        }
+    }
+
+    /// Plain rays of a sphere: the sum is the Debye term to the beams' few percent, and the same whether
+    /// all azimuths are asked for or one.
+    #[test]
+    fn beams_of_a_sphere_add_up_to_its_debye_term() {
+        let (x, index) = (2000.0, 1.333.into());
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, index, x, 1);
+        let theta: Vec<f64> = (0..30).map(|k| 0.4 + 0.01 * f64::from(k)).collect();
+        let exact = DebyeSeries::new(x, index).unwrap().amplitudes(Term::Order(1), &theta);
+        let many: Vec<f64> = (0..50).map(|k| 0.12 * f64::from(k)).collect();
+        for azimuths in [vec![0.7], many] {
+            let beams = GaussianBeams::new(&tracer, &[1], &azimuths, x);
+            let mut found = vec![AmplitudeMatrix::default(); theta.len()];
+            beams.add(&theta, 0.7, &mut found);
+            let (mut off, mut size) = (0.0, 0.0);
+            for (f, (s1, s2)) in found.iter().zip(&exact) {
+                off += (f.s1 - s1).norm_sqr() + (f.s2 - s2).norm_sqr() + f.s3.norm_sqr();
+                size += s1.norm_sqr() + s2.norm_sqr();
+            }
+            assert!((off / size).sqrt() < 0.02, "{}", (off / size).sqrt());
+        }
+    }
+
+    /// The vertical plane is a mirror: S3 and S4 change their sign.
+    #[test]
+    fn the_other_side_is_a_mirror_image() {
+        let shape = Shape::raindrop(0.8e-3, RaindropModel::BeardChuang1987, 0.4).unwrap();
+        let tracer = Tracer::new(&shape, 1.333.into(), 1000.0, 2);
+        let beams = GaussianBeams::new(&tracer, &[2], &[0.6], 1000.0);
+        let theta = [2.5, 2.6];
+        let at = |phi: f64| {
+            let mut found = vec![AmplitudeMatrix::default(); 2];
+            beams.add(&theta, phi, &mut found);
+            found
+        };
+        for (a, b) in at(0.6).into_iter().zip(at(-0.6)) {
+            let size = a.s11().sqrt();
+            assert!(size > 1.0 && a.s3.norm() > 1e-3 * size);
+            assert!((a.s1 - b.s1).norm() + (a.s2 - b.s2).norm() < 1e-9 * size);
+            assert!((a.s3 + b.s3).norm() + (a.s4 + b.s4).norm() < 1e-9 * size);
+        }
+    }
+}

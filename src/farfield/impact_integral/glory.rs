@@ -113,3 +113,49 @@ impl Glory {
         [sums[0] * widening, sums[1] * (widening * parallel_sign)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(forward: bool, rate: f64) -> (Glory, [Complex64; 2]) {
+        let fields = [Complex64::new(0.7, -0.2), Complex64::new(-0.4, 0.9)];
+        (Glory { forward, reach: 0.2, rings: vec![(rate, fields)] }, fields)
+    }
+
+    /// The integral round the ring: `∮ dα M(α) exp(iz cos α)/2π`, with `M` the fields turned into the plane.
+    #[test]
+    fn a_ring_is_its_integral_round_the_axis() {
+        const STEPS: usize = 200;
+        for (forward, sign) in [(true, 1.0), (false, -1.0)] {
+            let (glory, [perpendicular, parallel]) = ring(forward, 150.0);
+            for angle in [0.0, 1e-7, 0.01, 0.05, 0.15] {
+                let mut expected = [Complex64::default(); 2];
+                for k in 0..STEPS {
+                    let (sin, cos) = (TAU * k as f64 / STEPS as f64).sin_cos();
+                    let wave = Complex64::cis(150.0 * angle * cos) / STEPS as f64;
+                    expected[0] += (perpendicular * cos * cos + parallel * sin * sin) * wave;
+                    expected[1] += (parallel * cos * cos + perpendicular * sin * sin) * wave;
+                }
+                let widening = if angle == 0.0 { 1.0 } else { (angle / angle.sin()).sqrt() };
+                let found = glory.at(angle);
+                assert!((found[0] - expected[0] * widening).norm() < 1e-8, "{angle}: {found:?}");
+                assert!((found[1] - expected[1] * widening * sign).norm() < 1e-8, "{angle}");
+            }
+        }
+    }
+
+    /// On the axis there is no plane: `S1 = S2` forward, `S1 = -S2` backward; beyond its reach nothing.
+    #[test]
+    fn the_wave_is_added_about_its_own_axis() {
+        for (forward, theta) in [(true, [0.0, 0.1, 0.5]), (false, [PI, PI - 0.1, PI - 0.5])] {
+            let (glory, _) = ring(forward, 80.0);
+            let mut sums = vec![AmplitudeMatrix::default(); 3];
+            glory.add(&theta, &mut sums);
+            let sign = if forward { 1.0 } else { -1.0 };
+            assert!((sums[0].s1 - sums[0].s2 * sign).norm() < 1e-15 && sums[0].s11() > 0.0);
+            assert!((sums[1].s1 - glory.at(0.1)[0]).norm() < 1e-13);
+            assert_eq!(sums[2], AmplitudeMatrix::default());
+        }
+    }
+}

@@ -105,3 +105,37 @@ fn sum_with<const FMA: bool>(
     }
     sums.map(|lanes| lanes.iter().sum())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eight lanes and a rest, against the plain sum.
+    #[test]
+    fn lanes_add_up_what_a_plain_sum_does() {
+        let (angle, reference, x) = (0.7, 0.2, 900.0);
+        let mut integrand = Integrand::with_capacity(19);
+        let mut expected = [[Complex64::default(); 4]; 2];
+        for k in 0..19 {
+            let t = f64::from(k);
+            let (impact, path) = (0.9 + 0.01 * t, 1.3 - 0.02 * t + 0.003 * t * t);
+            let elements: [Complex64; 4] =
+                std::array::from_fn(|e| Complex64::new(t + e as f64, 1.0 - 0.3 * t * e as f64));
+            integrand.push(impact, path, elements);
+            let wave = Complex64::cis(x * (path - impact * angle - reference));
+            for e in 0..4 {
+                expected[0][e] += elements[e] * wave;
+                expected[1][e] += elements[e] * wave * impact;
+            }
+        }
+        integrand.fill_lanes();
+        assert_eq!(integrand.samples().count(), 24);
+        let found = integrand.sum(angle, reference, x);
+        for (f, e) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((f - e).norm() < 1e-10, "{f} {e}");
+        }
+        let (impact, path, [s1, s2]) = integrand.samples().nth(3).unwrap();
+        assert!((impact - 0.93).abs() + (path - 1.267).abs() < 1e-15);
+        assert_eq!((s1.re, s2.re), (3.0, 4.0));
+    }
+}

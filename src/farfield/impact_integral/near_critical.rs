@@ -180,3 +180,23 @@ pub(crate) fn segment(
     let knots: Vec<_> = places.iter().map(knot).collect();
     knots.iter().all(Knot::is_finite).then_some(Segment { kind: Kind::Wave, knots })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Knots go from the dark side to the last lit direction; closer where the two rays' waves beat faster.
+    #[test]
+    fn knots_are_closer_where_waves_beat_faster() {
+        let (dark, lit, per_angle) = (0.1, 0.4, 60.0);
+        let places = knots([dark, lit], per_angle);
+        assert_eq!((places[0], *places.last().unwrap()), (-dark, lit));
+        let steps: Vec<f64> = places.windows(2).map(|w| w[1] - w[0]).collect();
+        assert!(steps.iter().all(|&step| step > 0.0));
+        // on the dark side by the Airy function's unit, on the lit side by its period
+        assert!((steps[0] * per_angle - 1.0 / KNOTS_PER_UNIT).abs() < 1e-12);
+        let k = places.len() - 4;
+        let period = TAU / (places[k] * per_angle).sqrt();
+        assert!((steps[k] * per_angle - period / KNOTS_PER_PERIOD).abs() < 1e-9);
+    }
+}

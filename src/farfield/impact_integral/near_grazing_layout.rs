@@ -304,3 +304,132 @@ fn knots(
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INDEX: f64 = 1.333;
+
+    /// At the bow the deviation stands still; slopes by differences.
+    #[test]
+    fn the_bow_is_where_the_deviation_stands_still() {
+        const H: f64 = 1e-5;
+        for order in [2, 3, 4, 9] {
+            let b = bow(INDEX, order).unwrap();
+            assert!(deviation_slope(INDEX, order, b).0.abs() < 1e-12, "{order}");
+            for b in [0.5, 0.9] {
+                let at = |b: f64| deviation(INDEX, order, b);
+                let slope = (at(b + H) - at(b - H)) / (2.0 * H);
+                let bend = (at(b + H) - 2.0 * at(b) + at(b - H)) / (H * H);
+                let (s, t) = deviation_slope(INDEX, order, b);
+                assert!((s - slope).abs() < 1e-8 * (1.0 + s.abs()), "{order} {b}");
+                assert!((t - bend).abs() < 1e-3 * (1.0 + t.abs()), "{order} {b}");
+            }
+        }
+        // the primary bow of water at 137.9°
+        assert!((deviation(INDEX, 2, bow(INDEX, 2).unwrap()).to_degrees() - 137.9219).abs() < 1e-3);
+        assert!(bow(INDEX, 1).is_none() && bow(3.0, 2).is_none());
+    }
+
+    /// Two rays near a bow part in path by `4/3 (δ/h)^{3/2}` for the angle `δ` from it, `h` that of
+    /// one unit of the Airy function.
+    #[test]
+    fn the_airy_function_s_unit_is_that_of_the_rays() {
+        let x: f64 = 1e4;
+        for order in [2u32, 3] {
+            let b = bow(INDEX, order).unwrap();
+            let wanted = deviation(INDEX, order, b) + 1e-5;
+            let find = |mut low: f64, mut high: f64| {
+                let above = |b: f64| deviation(INDEX, order, b) > wanted;
+                let side = above(low);
+                for _ in 0..100 {
+                    let middle = 0.5 * (low + high);
+                    if above(middle) == side { low = middle } else { high = middle }
+                }
+                low
+            };
+            let path = |b: f64| {
+                2.0 * (f64::from(order) * (INDEX * INDEX - b * b).sqrt() - (1.0 - b * b).sqrt())
+            };
+            let (inner, outer) = (find(0.2, b), find(b, 1.0));
+            let phase = 0.75 * x * (path(inner) - path(outer)).abs();
+            let unit = 1e-5 / phase.powf(2.0 / 3.0);
+            let found = airy_angle(INDEX, order, x);
+            assert!((found / unit - 1.0).abs() < 2e-3, "{order}: {found} {unit}");
+        }
+    }
+
+    /// Knots go on from begin to end, as close as the band of impacts asks for; their slopes lie in it.
+    #[test]
+    fn knots_are_as_close_as_the_band_of_impacts_asks_for() {
+        let (x, spare) = (5000.0, 0.01);
+        let ends = [-0.1, 0.0, 0.3, 0.4];
+        for sense in [1.0, -1.0] {
+            let found = knots(ends, sense, [0.8, 0.95], spare, x).unwrap();
+            assert_eq!(sense * found[0][0], -0.1);
+            assert!(sense * found[found.len() - 1][0] >= 0.4);
+            for pair in found.windows(2) {
+                let step = sense * (pair[1][0] - pair[0][0]);
+                // half the band from the inner impact to the rim
+                let half = 1.0 - (pair[0][1] + 0.95);
+                assert!((step * x * (half + spare) * KNOTS_PER_PERIOD / TAU - 1.0).abs() < 1e-9);
+                assert!((0.025..=0.1 + 1e-12).contains(&half), "{half}");
+            }
+        }
+        assert!(knots([-0.1, 0.0, 0.3, 40.0], 1.0, [0.8, 0.95], spare, x).is_none());
+    }
+
+    /// Runs between axes end exactly the gap from them, and none crosses.
+    #[test]
+    fn runs_keep_off_the_axes() {
+        let all: Vec<[f64; 2]> =
+            (0..=90).map(|k| [0.05 * f64::from(k) - 0.5, f64::from(k)]).collect();
+        for knots in [all.clone(), all.into_iter().rev().collect::<Vec<_>>()] {
+            let (anchor, gap) = (0.3, 0.1);
+            let runs = between_axes(&knots, anchor, gap);
+            assert_eq!(runs.len(), 3);
+            for run in &runs {
+                let angles: Vec<f64> = run.iter().map(|knot| anchor + knot[0]).collect();
+                let half_turns = |a: &f64| (a / PI).floor();
+                assert!(angles.windows(2).all(|w| half_turns(&w[0]) == half_turns(&w[1])));
+                let off = |a: &f64| (a - (a / PI).round() * PI).abs();
+                assert!(angles.iter().all(|a| off(a) > gap - 1e-12));
+            }
+            let nearest = |a: f64| {
+                let ends = runs.iter().flat_map(|run| [run[0][0], run[run.len() - 1][0]]);
+                ends.map(|end| (anchor + end - a).abs()).fold(f64::MAX, f64::min)
+            };
+            for axis in [0.0, PI] {
+                assert!((nearest(axis - gap)).min(nearest(axis + gap)) < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn impacts_clear_of_the_axis_are_found() {
+        let b = bow(INDEX, 4).unwrap();
+        let gap = 0.3;
+        let clear = clear_of_axis(INDEX, 4, b, gap).unwrap();
+        for k in 0..=20 {
+            let b = clear + (b - clear) * f64::from(k) / 20.0;
+            assert!(from_axis(INDEX, 4, b) > gap - 1e-9, "{b}");
+        }
+        assert!(from_axis(INDEX, 4, clear - b / 100.0) < gap + 0.03);
+        // deviations of order 4 pass 2π where its rays cross the axis
+        let crossing = below_axis(INDEX, 4, 0.83, 0.05);
+        assert!(from_axis(INDEX, 4, crossing) >= 0.05 && crossing <= 0.83);
+    }
+
+    #[test]
+    fn twice_the_knots_are_half_as_far() {
+        let mut layout = NearGrazingLayout::new([0.7, 0.8, 0.9], true);
+        layout.knots = vec![vec![[0.0, 1.0], [0.4, 3.0], [1.0, 2.0]]];
+        let finer = layout.finer();
+        assert_eq!(
+            finer.knots[0],
+            vec![[0.0, 1.0], [0.2, 2.0], [0.4, 3.0], [0.7, 2.5], [1.0, 2.0]]
+        );
+        assert_eq!((layout.weight(0.7), layout.weight(0.75), layout.weight(0.8)), (0.0, 0.5, 1.0));
+    }
+}

@@ -336,3 +336,115 @@ fn unwrap_turns(rows: &mut [Channels<f64>]) {
 fn frame_turn(from: Vec3<f64>, to: Vec3<f64>, direction: Vec3<f64>) -> f64 {
     from.cross(direction).dot(to).atan2(from.dot(to))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::farfield::deflection::scan::Scan;
+    use crate::farfield::deflection::scattering_plane::ScatteringPlane;
+    use crate::shape::Shape;
+    use crate::trace::Tracer;
+
+    const INDEX: f64 = 1.333;
+
+    fn with_curve(order: u32, test: impl FnOnce(&DeflectionCurve)) {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, INDEX.into(), 1e4, order);
+        let silhouette = shape.silhouette();
+        let plane = ScatteringPlane::new(&tracer, order, 0.0, [0.0; 2]);
+        let scan = Scan { nodes: 100, axis_gap: 0.02, limit: FRAC_PI_2 };
+        test(&DeflectionCurve::new(plane, &silhouette, scan).unwrap());
+    }
+
+    /// Between the turning points of the waves outside a sphere's path is `2p (√(n² - β²) + β asin β/n)` but for
+    /// the axis' angle, and its phase stands still at `2p asin(β/n)`: analytic through the rim.
+    #[test]
+    fn channels_of_a_sphere_are_known() {
+        for order in [2u32, 4] {
+            with_curve(order, |curve| {
+                let rays = Rays::between(curve, [0.6, 0.999], RAYS - 1).unwrap();
+                let p = f64::from(order);
+                for sin in [0.6, 0.8, 0.97, 1.0, 1.02f64] {
+                    let anchor = rays.anchor(sin);
+                    let inside = (sin / INDEX).asin();
+                    // angles grow with the impact, which is negative where rays have crossed the axis
+                    let sense = anchor.impact.signum();
+                    assert!((sense * anchor.impact - sin).abs() < 1e-9, "{sin}: {}", anchor.impact);
+                    let axis = curve.plane().axis_angle();
+                    let expected = axis + sense * (2.0 * p * inside - PI);
+                    let turned =
+                        expected + if sense > 0.0 { 0.0 } else { 2.0 * (2.0 * p * inside - PI) };
+                    assert!(
+                        (anchor.angle - turned).abs() < 1e-6,
+                        "{sin}: {} {turned}",
+                        anchor.angle
+                    );
+                }
+                assert!((rays.last_real() - 1.0).abs() < 1e-6, "{}", rays.last_real());
+                let x: f64 = 1e4;
+                let end = rays.end_of_tunnel(INDEX.into(), x);
+                assert!((end - (1.0 + TUNNEL * x.powf(-2.0 / 3.0))).abs() < 1e-6);
+            });
+        }
+    }
+
+    /// Fields from channels are those of the traced ray, but for the phase outside, far from grazing.
+    #[test]
+    fn fields_from_channels_are_those_of_traced_rays() {
+        with_curve(3, |curve| {
+            let rays = Rays::between(curve, [0.3, 0.8], RAYS - 1).unwrap();
+            for sin in [0.4, 0.55, 0.7] {
+                let node = curve.ray_at(sin).unwrap();
+                let traced = curve.plane().transfer(&node.exit, node.angle);
+                let [s1, s2, s3, s4] = rays.transfer(sin, INDEX.into(), 1e6).unwrap();
+                assert!((s1.norm() - traced.s1.norm()).abs() < 1e-6, "{sin}: {s1} {}", traced.s1);
+                assert!((s2.norm() - traced.s2.norm()).abs() < 1e-6, "{sin}: {s2} {}", traced.s2);
+                assert!(s3.norm() + s4.norm() < 1e-12);
+                // the same sense of both polarisations
+                let both = (s1 * s2.conj()).re * (traced.s1 * traced.s2.conj()).re;
+                assert!(both > 0.0 || traced.s2.norm() < 1e-3, "{sin}");
+            }
+        });
+    }
+
+    /// A quarter of a turn for each crossing of the axis, half of it upon the axis.
+    #[test]
+    fn prefactors_gain_a_focal_line_at_the_axis() {
+        let prefactor = Prefactor { value: Complex64::new(0.3, 0.4), angle: 0.4, sense: 1.0 };
+        assert_eq!(prefactor.towards(3.0), prefactor.value);
+        let crossed = prefactor.towards(3.3);
+        assert!((crossed - prefactor.value * Complex64::i()).norm() < 1e-15);
+        assert!((prefactor.towards(-0.1) + prefactor.value * Complex64::i()).norm() < 1e-15);
+        let upon = prefactor.at_axis(1.0);
+        assert!((upon * Complex64::cis(FRAC_PI_4) - crossed).norm() < 1e-15);
+    }
+
+    #[test]
+    fn frames_turn_about_the_ray_and_rows_are_unwrapped() {
+        let z = Vec3::new(0.0, 0.0, 1.0);
+        let at = |angle: f64| Vec3::new(angle.cos(), angle.sin(), 0.0);
+        // `perpendicular, perpendicular × direction`: clockwise about the ray
+        assert!((frame_turn(at(0.4), at(0.1), z) - 0.3).abs() < 1e-15);
+        let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
+        turn(&mut fields, 0.3);
+        let second = at(0.1).cross(z);
+        assert!((fields[0][0] - at(0.4).dot(at(0.1))).norm() < 1e-15);
+        assert!((fields[0][1] - at(0.4).dot(second)).norm() < 1e-15);
+        let row = |a: f64, last_turn: f64| Channels {
+            impact: 0.0,
+            path: 0.0,
+            spreading: 1.0,
+            inside: 1.0,
+            meetings: [a, 0.1]
+                .map(|turn| MeetingChannels { square: 1.0, radius: 1.0, turn })
+                .into(),
+            last_turn,
+        };
+        let mut rows = vec![row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
+        unwrap_turns(&mut rows);
+        let first = |k: usize| rows[k].meetings[0].turn;
+        assert!((first(1) - (TAU - 3.1)).abs() < 1e-15 && (first(2) - (TAU - 3.0)).abs() < 1e-15);
+        assert!((rows[2].last_turn - (3.0 - TAU)).abs() < 1e-15);
+        assert_eq!(rows[2].meetings[1].turn, 0.1);
+    }
+}

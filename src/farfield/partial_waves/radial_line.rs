@@ -383,3 +383,51 @@ struct Incidence {
     radius: f64,
     angle: f64,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+
+    const INDEX: f64 = 1.333;
+
+    /// Along a line of a sphere the impact is the launch point, the ray meets the surface at its angle
+    /// of incidence everywhere, and rings go on beyond the rim, where waves tunnel, getting weaker.
+    #[test]
+    fn lines_of_a_sphere_are_known() {
+        let x = 60.0;
+        let shape = Shape::sphere();
+        for order in [1u32, 2, 3] {
+            let tracer = Tracer::new(&shape, INDEX.into(), x, order).with_curved_interface(x);
+            let silhouette = shape.silhouette();
+            let centre = central_ray(&tracer, &silhouette, order, true).unwrap();
+            assert!(centre[0].hypot(centre[1]) < 1e-12);
+            let line = RadialLine::new(&tracer, &silhouette, order, centre, 0.4, x, true).unwrap();
+            for s in [0.1, 0.6, 0.95, 1.05] {
+                let tau = (s / INDEX).asin();
+                let (impact, slope) = line.impact(tau);
+                assert!((impact - s).abs() < 1e-8 && (slope - INDEX * tau.cos()).abs() < 1e-6);
+                let found = line.launch_of(s, 0.5).unwrap();
+                assert!((found - tau).abs() < 1e-8);
+                for hit in 0..=order as usize {
+                    let Incidence { square, radius, .. } = line.incidence(hit, tau);
+                    assert!((square - (1.0 - s * s)).abs() < 1e-7, "{order} {s} {hit}: {square}");
+                    assert!((radius - 1.0).abs() < 1e-5, "{order} {s} {hit}: {radius}");
+                }
+            }
+            assert!(line.largest_twist() < 1e-8);
+            let (first, rings) = line.rings(INDEX.into(), x);
+            assert_eq!(first, 1);
+            let beyond = rings.len() as f64 + 0.5 - x;
+            let tunnel = TUNNEL * x.cbrt();
+            assert!(beyond > 0.5 * tunnel && beyond <= tunnel + 1.0, "{beyond} {tunnel}");
+            let size =
+                |ring: &Ring| ring.fields.iter().flatten().map(|f| f.norm_sqr()).sum::<f64>();
+            let (rim, last) = (size(&rings[x as usize - 1]), size(&rings[rings.len() - 1]));
+            assert!(last < 1e-2 * rim, "{order}: {last} {rim}");
+            // each plane's vector is null
+            let null = rings[20].null;
+            assert!(null.dot(null).norm() < 1e-12);
+        }
+    }
+}

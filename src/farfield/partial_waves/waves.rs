@@ -280,3 +280,105 @@ fn spinor(a: Vec3<Complex64>) -> [Complex64; 2] {
     let off_zero = |v: Complex64| if v.norm() < LEAST { Complex64::from(LEAST) } else { v };
     [off_zero(p), off_zero(q)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A null vector `s - iw` of a plane.
+    fn null(theta: f64, phi: f64, turn: f64) -> Vec3<Complex64> {
+        let (d, e, f) = {
+            let direction = crate::farfield::direction::Direction::new(theta, phi);
+            (direction.unit, direction.theta_hat, direction.phi_hat)
+        };
+        let w = e * turn.cos() + f * turn.sin();
+        let part = |s: f64, w: f64| Complex64::new(s, -w);
+        Vec3 { x: part(d.x, w.x), y: part(d.y, w.y), z: part(d.z, w.z) }
+    }
+
+    /// Sines and cosines as fast as the highest partial wave come back between their samples.
+    #[test]
+    fn the_kernel_interpolates_what_is_sampled_finely_enough() {
+        let rate = TAU / SAMPLES_PER_PERIOD;
+        for place in [0.0, 0.3, 0.5, 0.99] {
+            let range = 1 - REACH as i64..=REACH as i64;
+            let sum: f64 =
+                range.map(|j| kernel(place - j as f64) * (rate * j as f64 + 0.4).cos()).sum();
+            assert!((sum - (rate * place + 0.4).cos()).abs() < 1e-4, "{place}: {sum}");
+        }
+        assert_eq!(kernel(0.0), 1.0);
+        assert!(kernel(3.0).abs() < 1e-16);
+    }
+
+    #[test]
+    fn spinors_square_to_their_null_vector() {
+        for a in
+            [null(1.0, 0.3, 0.0), null(1.0, 0.3, 2.0), null(2.5, -1.0, 1.3), null(0.4, 2.0, -1.0)]
+        {
+            let [p, q] = spinor(a);
+            let i = Complex64::i();
+            assert!((p * p - (a.x - i * a.y)).norm() < 1e-14);
+            assert!((q * q + (a.x + i * a.y)).norm() < 1e-14);
+            assert!((p * q - a.z).norm() < 1e-14);
+        }
+        // a plane square to the axis: one of them vanishes, but for what keeps quotients finite
+        let [p, q] = spinor(null(0.5 * PI, 0.2, 0.5 * PI));
+        assert!(p.norm().min(q.norm()) <= 1e-8 && p.norm().max(q.norm()) > 1.0);
+    }
+
+    #[test]
+    fn shares_are_factorials() {
+        // 3!/√(5! 1!), 3!/√(3! 3!)
+        assert!((ln_share(3.0, 2.0).exp() - 6.0 / 120f64.sqrt()).abs() < 1e-13);
+        assert!((ln_share(3.0, 0.0).exp() - 1.0).abs() < 1e-13);
+        assert!((ln_share(40.0, -7.0) - ln_share(40.0, 7.0)).abs() < 1e-12);
+    }
+
+    /// A ring `(n·a)^l` projected on spherical harmonics is itself again, in every direction.
+    #[test]
+    fn projected_rings_are_powers_of_their_null_vector() {
+        for (l, a) in
+            [(5, null(1.0, 0.3, 2.0)), (24, null(2.2, -0.8, 0.4)), (12, null(0.3, 0.0, 1.0))]
+        {
+            let field = Complex64::new(0.3, -0.7);
+            let none = Complex64::default();
+            let ring = Ring { null: a, fields: [[field, none], [none, none]] };
+            let sums = projected(l, std::iter::once(&ring), 0.5);
+            assert_eq!(sums.len(), 2 * l + 1);
+            for (theta, phi) in [(0.7, 1.1), (1.9, -2.0), (1.1, 0.2f64)] {
+                let n = crate::farfield::direction::Direction::new(theta, phi).unit;
+                let dot = a.x * n.x + a.y * n.y + a.z * n.z;
+                let expected = dot.powu(l as u32) * field * Complex64::i() * 0.5 / l as f64;
+                let mut found = Complex64::default();
+                for m in 0..=l {
+                    legendre(m, l, theta, |degree, value, _| {
+                        if degree < l {
+                            return;
+                        }
+                        let wave = Complex64::cis(m as f64 * phi) * value;
+                        found += sums[l + m][0] * wave;
+                        let sign = if m % 2 == 0 { 1.0 } else { -1.0 };
+                        if m > 0 {
+                            found += sums[l - m][0] * wave.conj() * sign * Complex64::from(1.0);
+                        }
+                    });
+                }
+                assert!(
+                    (found - expected).norm() < 1e-9 * (1.0 + expected.norm()),
+                    "{l}: {found} {expected}"
+                );
+            }
+        }
+    }
+
+    /// Potentials of different degrees add up.
+    #[test]
+    fn potentials_of_several_orders_add_up() {
+        let of = |last: usize, value: f64| -> Vec<Potentials> {
+            (1..=last).map(|l| vec![[Complex64::from(value); 4]; 2 * l + 1]).collect()
+        };
+        let mut sums = of(2, 1.0);
+        add(&mut sums, of(3, 0.5));
+        assert_eq!((sums.len(), sums[1][4][2].re, sums[2][6][0].re), (3, 1.5, 0.5));
+    }
+}

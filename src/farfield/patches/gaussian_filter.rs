@@ -89,3 +89,60 @@ fn blurred(theta: &[f64], values: &[f64], t: f64, sigma: f64) -> f64 {
     }
     if weights > 0.0 { sum / weights } else { values[from.min(values.len() - 1)] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn deviations_are_those_of_the_table() {
+        for (mm, degrees) in [(0.1, 0.70), (0.35, 0.275), (1.0, 0.15), (0.05, 0.70), (3.0, 0.15)] {
+            let found = standard_deviation(mm * 1e-3).to_degrees();
+            assert!((found - degrees).abs() < 1e-12, "{mm}: {found}");
+        }
+    }
+
+    fn grid() -> Vec<f64> {
+        (0..=4000).map(|k| 2.0 + 1e-4 * f64::from(k)).collect()
+    }
+
+    /// A step becomes an error function about its bow, twice as wide for the secondary bow.
+    #[test]
+    fn a_step_at_a_bow_becomes_an_error_function() {
+        let (theta, sigma) = (grid(), 0.005);
+        let values: Vec<f64> = theta.iter().map(|&t| if t < 2.2 { 1.0 } else { 3.0 }).collect();
+        for (order, width) in [(2, sigma), (3, 2.0 * sigma)] {
+            let bow = Bow { theta: 2.2, order };
+            let found = apply(&theta, &values, &[bow], sigma);
+            for (k, &t) in theta.iter().enumerate() {
+                let away = (t - 2.2) / width;
+                let exact = 2.0 + libm::erf(away / 2f64.sqrt());
+                if away.abs() < 3.9 {
+                    assert!((found[k] - exact).abs() < 0.01, "{order} {t}: {} {exact}", found[k]);
+                } else if away.abs() > 4.1 {
+                    assert_eq!(found[k], values[k]);
+                }
+            }
+        }
+    }
+
+    /// What is even stays, on uneven samples too.
+    #[test]
+    fn a_constant_stays() {
+        let theta: Vec<f64> = (0..300).map(|k| 2.0 + 1e-5 * f64::from(k * k)).collect();
+        let found = apply(&theta, &vec![0.7; 300], &[Bow { theta: 2.3, order: 2 }], 0.05);
+        assert!(found.iter().all(|v| (v - 0.7).abs() < 1e-13));
+    }
+
+    #[test]
+    fn bows_are_where_rays_of_an_order_come_or_go() {
+        let theta = [1.0, 1.1, 1.2, 1.3];
+        let counts = vec![vec![1, 1, 0], vec![1, 3, 2, 1], vec![1, 1, 2], vec![1, 1, 0, 2]];
+        let found: Vec<(f64, u32)> =
+            bows(&theta, &counts).into_iter().map(|bow| (bow.theta, bow.order)).collect();
+        // orders 0 and 1 have none; one ray more is no bow
+        assert_eq!(found.len(), 3);
+        assert!((found[0].0 - 1.05).abs() < 1e-15 && found[0].1 == 2);
+        assert!((found[1].0 - 1.25).abs() < 1e-15 && found[1].1 == 2 && found[2].1 == 3);
+    }
+}

@@ -94,3 +94,50 @@ fn sheet(order: u32, rays: impl Iterator<Item = Option<Corner>>, triangles: &[Tr
         .collect();
     Sheet { order, corners, triangles }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+
+    /// Every ray of a sphere leaves in every order asked for, in the order asked, with the spread of its
+    /// deflection.
+    #[test]
+    fn a_sphere_s_sheets_are_whole() {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, 1.333.into(), 100.0, 3);
+        let wavefront = Wavefront::corners(&shape, 6, 8, 0.1);
+        let found = sheets(&tracer, &wavefront, &[2, 0]);
+        assert_eq!(found.iter().map(|sheet| sheet.order).collect::<Vec<_>>(), [2, 0]);
+        for sheet in &found {
+            assert_eq!(sheet.corners.len(), wavefront.len());
+            assert_eq!(sheet.triangles, wavefront.triangles());
+            for (n, corner) in sheet.corners.iter().enumerate() {
+                let (u, v) = wavefront.vertex(n);
+                assert_eq!(corner.place, [u, v]);
+                let exit = tracer.trace_order(u, v, sheet.order).unwrap();
+                assert_eq!((corner.path, corner.spread), (exit.path, exit.spread()));
+            }
+        }
+    }
+
+    /// Rays that do not enter leave no corner; the triangles left are those of corners that exist.
+    #[test]
+    fn totally_reflected_rays_leave_no_corner() {
+        let shape = Shape::sphere();
+        let tracer = Tracer::new(&shape, 0.75.into(), 100.0, 1);
+        let wavefront = Wavefront::corners(&shape, 20, 16, 0.0);
+        let [reflected, through] = &sheets(&tracer, &wavefront, &[0, 1])[..] else { panic!() };
+        assert_eq!(reflected.corners.len(), wavefront.len());
+        let entering = (0..wavefront.len())
+            .filter(|&n| {
+                let (u, v) = wavefront.vertex(n);
+                u.hypot(v) < 0.75
+            })
+            .count();
+        assert_eq!(through.corners.len(), entering);
+        let rings = (entering - 1) / 16;
+        assert_eq!(through.triangles.len(), 16 * (2 * rings - 1));
+        assert!(through.triangles.iter().flatten().all(|&n| (n as usize) < entering));
+    }
+}

@@ -1,0 +1,7 @@
+//! What is typed: flags that several commands share, and the grammar of their values.
+
+pub mod memory;
+pub mod particle;
+pub mod polarisation;
+pub mod ranges;
+pub mod scene_flags;

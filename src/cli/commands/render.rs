@@ -1,0 +1,76 @@
+//! `gonio render`: a picture of a rainbow.
+
+use crate::cli::Result;
+use crate::cli::show::notes;
+use clap::Args;
+use gonio::render::bow::{BowScene, DropKeys};
+use std::path::{Path, PathBuf};
+
+/// Picture of a rainbow, from a scene file or from a table
+#[derive(Args)]
+#[command(after_help = "Examples: gonio render data/scenes/bows/double.toml -o bow.png
+          gonio render --table raindrop.h5 --fov-deg 60 -o bow.png")]
+pub struct RenderArgs {
+    /// Scene of a picture; without one, --table
+    #[arg(value_name = "SCENE.toml", required_unless_present = "table")]
+    scene: Option<PathBuf>,
+    /// PNG to write
+    #[arg(short, long, value_name = "BOW.png")]
+    output: PathBuf,
+    /// Table of the drops, in place of the scene's
+    #[arg(long, value_name = "TABLE.h5")]
+    table: Vec<PathBuf>,
+    /// Width in pixels
+    #[arg(long)]
+    width: Option<usize>,
+    /// Height in pixels
+    #[arg(long)]
+    height: Option<usize>,
+    /// Field of view across the width
+    #[arg(long, value_name = "DEG")]
+    fov_deg: Option<f64>,
+    /// rectilinear, equidistant, equal-area, stereographic or orthographic
+    #[arg(long)]
+    lens: Option<String>,
+    /// Elevation of the camera's axis
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    elevation_deg: Option<f64>,
+    /// Azimuth of the camera's axis from the antisolar direction, to the right
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    azimuth_deg: Option<f64>,
+    /// Sun above the horizon (default: the table's)
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    sun_elevation_deg: Option<f64>,
+    /// Polarising filter: angle of its axis from the horizontal
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    polariser_deg: Option<f64>,
+    /// Light: D65, A, E, D50, 5778K, sun, sun-ground, sun@DEGREES
+    #[arg(long)]
+    illuminant: Option<String>,
+}
+
+pub fn run(args: RenderArgs) -> Result<()> {
+    let mut scene = match &args.scene {
+        Some(path) => BowScene::load(path)?,
+        None => BowScene::default(),
+    };
+    let folder = args.scene.as_deref().and_then(Path::parent).unwrap_or(Path::new("."));
+    if !args.table.is_empty() {
+        scene.drops = args.table.iter().map(|table| DropKeys::table(table)).collect();
+    }
+    let drop_folder = if args.table.is_empty() { folder } else { Path::new(".") };
+    let lay = |flag: &Option<f64>, key: &mut Option<f64>| *key = flag.or(*key);
+    lay(&args.fov_deg, &mut scene.camera.fov_deg);
+    lay(&args.elevation_deg, &mut scene.camera.elevation_deg);
+    lay(&args.azimuth_deg, &mut scene.camera.azimuth_deg);
+    lay(&args.sun_elevation_deg, &mut scene.sun.elevation_deg);
+    lay(&args.polariser_deg, &mut scene.filter.polariser_deg);
+    scene.camera.width = args.width.or(scene.camera.width);
+    scene.camera.height = args.height.or(scene.camera.height);
+    scene.camera.lens = args.lens.clone().or(scene.camera.lens);
+    scene.sun.illuminant = args.illuminant.clone().or(scene.sun.illuminant);
+
+    let picture = scene.draw(drop_folder, &|note| notes::tell([note]))?;
+    picture.write_png(&args.output)?;
+    Ok(())
+}

@@ -1,0 +1,339 @@
+//! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie or Debye terms.
+
+use crate::cli::args::particle::{
+    Index, ShapeFlags, ShapeKind, parse_index, parse_orders, raindrop_model, water_index,
+};
+use crate::cli::args::ranges::scattering_angles;
+use crate::cli::{Failure, Result};
+use clap::{Args, ValueEnum};
+use gonio::math::digits::to_digits;
+use gonio::optics::AmplitudeMatrix;
+use gonio::plan::{DOUBTFUL_PHASE_SHIFT, check_rays};
+use gonio::scatter::{
+    self, DebyeTerms, RayDiffraction, RayRequest, Request, Scattering, Size, SizeConflict,
+};
+use gonio::shape::Shape;
+use num_complex::Complex64;
+use serde_json::{Value, json};
+use std::time::Instant;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    Rays,
+    Mie,
+    Debye,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum DiffractionName {
+    None,
+    Gaussian,
+    Airy,
+}
+
+/// Amplitude matrix in chosen directions, by any method
+#[derive(Args)]
+#[command(after_help = "Example: gonio scatter --method rays --shape raindrop --radius-um 500 \
+--wavelength-nm 650 --sun-elevation-deg 20 --theta 130:150:0.1 --json")]
+pub struct ScatterArgs {
+    #[arg(long, value_enum)]
+    method: MethodName,
+    #[arg(long, value_enum, default_value = "sphere")]
+    shape: ShapeKind,
+    /// Radius of the sphere of equal volume, micrometres. Of radius, wavelength and size parameter
+    /// two say the third; given all three, they must agree
+    #[arg(long, allow_hyphen_values = true)]
+    radius_um: Option<f64>,
+    /// Diameter of the sphere of equal volume, millimetres
+    #[arg(long, conflicts_with = "radius_um")]
+    diameter_mm: Option<f64>,
+    /// Wavelength in vacuum, nanometres
+    #[arg(long, allow_hyphen_values = true)]
+    wavelength_nm: Option<f64>,
+    /// Size parameter 2πa/λ of the sphere of equal volume
+    #[arg(long, allow_hyphen_values = true)]
+    size_parameter: Option<f64>,
+    /// Index n or n+k; without it, water at the wavelength
+    #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
+    index: Option<Index>,
+    /// Vertical over horizontal diameter of a spheroid
+    #[arg(long, allow_hyphen_values = true)]
+    axis_ratio: Option<f64>,
+    /// Sun above the horizon; of no effect on a sphere
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    sun_elevation_deg: f64,
+    /// Azimuth of the light about the sun's rays; of no effect on a sphere
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    azimuth_deg: f64,
+    /// Scattering angles in degrees: a comma list of values and from:to:step ranges
+    #[arg(long)]
+    theta: String,
+    /// A comma list of orders, "diffraction", or "auto"; not for Lorenz–Mie, which has all of them
+    #[arg(long, default_value = "auto")]
+    orders: String,
+    /// airy: uniform formulas at every bow (default); gaussian: rays whose intensities a filter smooths
+    /// near bows (Sadeghi et al. 2012; phases are those of the rays); none: rays alone
+    #[arg(long, value_enum)]
+    diffraction: Option<DiffractionName>,
+    /// Relative error asked of rays and of the number of Debye terms
+    #[arg(long, default_value_t = 0.01)]
+    tolerance: f64,
+    /// Raindrop model (default: beard-chuang-1987)
+    #[arg(long)]
+    model: Option<String>,
+    /// Rays across the silhouette for the patches of `--diffraction none` and `gaussian`
+    #[arg(long)]
+    rays_across: Option<usize>,
+    /// JSON on standard output
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was asked for, checked.
+struct Job {
+    request: Request,
+    /// Metres, where it is known.
+    radius: Option<f64>,
+    theta_deg: Vec<f64>,
+    terms: DebyeTerms,
+}
+
+pub fn run(args: ScatterArgs) -> Result<()> {
+    let job = job(&args)?;
+    let start = Instant::now();
+    let seen = match args.method {
+        MethodName::Mie => {
+            sphere_only(&args)?;
+            scatter::lorenz_mie(&job.request)?
+        }
+        MethodName::Debye => {
+            sphere_only(&args)?;
+            scatter::debye(&job.request, &job.terms)?
+        }
+        MethodName::Rays => rays(&args, &job)?,
+    };
+    let seconds = start.elapsed().as_secs_f64();
+    note(&seen);
+    if args.json {
+        println!("{}", to_json(&args, &job, &seen, seconds));
+    } else {
+        print_table(&job, &seen);
+    }
+    Ok(())
+}
+
+fn usage(message: impl Into<String>) -> Failure {
+    Failure::usage(message)
+}
+
+fn positive(name: &str, value: Option<f64>) -> Result<Option<f64>> {
+    match value {
+        Some(v) if !(v.is_finite() && v > 0.0) => {
+            Err(usage(format!("--{name} {v}: a finite number above 0 is accepted")))
+        }
+        other => Ok(other),
+    }
+}
+
+/// Any two of radius, wavelength and size parameter say the third; three must agree.
+fn size(args: &ScatterArgs) -> Result<Size> {
+    let diameter = positive("diameter-mm", args.diameter_mm)?;
+    let radius = positive("radius-um", args.radius_um)?.or(diameter.map(|d| 500.0 * d));
+    let wavelength = positive("wavelength-nm", args.wavelength_nm)?.map(|nm| nm * 1e-9);
+    let parameter = positive("size-parameter", args.size_parameter)?;
+    Size::of(radius.map(|um| um * 1e-6), wavelength, parameter).map_err(|conflict| match conflict {
+        SizeConflict::Disagree { radius, wavelength, parameter, implied } => usage(format!(
+            "--size-parameter {parameter} disagrees with a radius of {} µm at {} nm, whose size \
+             parameter is {implied:.6}: give two of the three",
+            to_digits(radius * 1e6, 9),
+            to_digits(wavelength * 1e9, 9)
+        )),
+        SizeConflict::Missing => usage(
+            "the particle's size is missing: give --size-parameter, or --radius-um and \
+             --wavelength-nm",
+        ),
+    })
+}
+
+/// Flags that contradict each other; each pair is refused rather than settled.
+fn check_flags(args: &ScatterArgs) -> Result<()> {
+    let series = args.method != MethodName::Rays;
+    let patches = args.diffraction.is_some_and(|diffraction| diffraction != DiffractionName::Airy);
+    let rules = [
+        (
+            args.method == MethodName::Mie && args.orders != "auto",
+            "--orders with --method mie: Lorenz–Mie has all orders at once; debye and rays take a list",
+        ),
+        (
+            series && args.diffraction.is_some(),
+            "--diffraction with an exact series, which has all of it: a flag of --method rays only",
+        ),
+        (
+            series && args.rays_across.is_some(),
+            "--rays-across with an exact series, which has no rays: a flag of --method rays only",
+        ),
+        (
+            !series && !patches && args.rays_across.is_some(),
+            "--rays-across without patches of rays: a flag of --diffraction none and gaussian only",
+        ),
+    ];
+    if let Some((_, message)) = rules.iter().find(|(wrong, _)| *wrong) {
+        return Err(usage(*message));
+    }
+    let flags =
+        ShapeFlags { shape: args.shape, axis_ratio: args.axis_ratio, model: args.model.as_deref() };
+    flags.check()
+}
+
+fn job(args: &ScatterArgs) -> Result<Job> {
+    check_flags(args)?;
+    let size = size(args)?;
+    if !(args.tolerance > 0.0 && args.tolerance < 1.0) {
+        return Err(usage(format!(
+            "--tolerance {}: a number between 0 and 1 is accepted",
+            args.tolerance
+        )));
+    }
+    for (name, value, limit) in [
+        ("sun-elevation-deg", args.sun_elevation_deg, 90.0),
+        ("azimuth-deg", args.azimuth_deg, 360.0),
+    ] {
+        if value.is_nan() || value.abs() > limit {
+            return Err(usage(format!("--{name} {value}: -{limit} to {limit} is accepted")));
+        }
+    }
+    let index = match (args.index, size.wavelength) {
+        (Some(Index(index)), _) => index,
+        (None, Some(wavelength)) => water_index(wavelength)?,
+        (None, None) => {
+            let message =
+                "the index of water needs --wavelength-nm (or --radius-um); or give --index";
+            return Err(usage(message));
+        }
+    };
+    let terms = parse_orders(&args.orders).map_err(usage)?;
+    let theta_deg = scattering_angles(&args.theta).map_err(usage)?;
+    let request = Request {
+        size_parameter: size.parameter,
+        index,
+        theta: theta_deg.iter().map(|t| t.to_radians()).collect(),
+        azimuth: args.azimuth_deg.to_radians(),
+        tolerance: args.tolerance,
+    };
+    Ok(Job { request, radius: size.radius, theta_deg, terms })
+}
+
+fn sphere_only(args: &ScatterArgs) -> Result<()> {
+    let round = args.shape == ShapeKind::Sphere
+        || (args.shape == ShapeKind::Spheroid && args.axis_ratio == Some(1.0));
+    if round {
+        return Ok(());
+    }
+    Err(usage("--method mie and debye serve spheres only: use --method rays for this shape"))
+}
+
+fn shape(args: &ScatterArgs, job: &Job) -> Result<Shape> {
+    let sun = args.sun_elevation_deg.to_radians();
+    Ok(match args.shape {
+        ShapeKind::Sphere => Shape::sphere(),
+        ShapeKind::Spheroid => {
+            let ratio =
+                args.axis_ratio.ok_or_else(|| usage("--axis-ratio is missing for a spheroid"))?;
+            Shape::spheroid(ratio, sun).map_err(|e| usage(format!("--axis-ratio: {e}")))?
+        }
+        ShapeKind::Raindrop => {
+            let radius = job.radius.ok_or_else(|| {
+                usage(
+                    "a raindrop's shape depends on its size: give --radius-um, or --wavelength-nm",
+                )
+            })?;
+            Shape::raindrop(radius, raindrop_model(args.model.as_deref())?, sun)?
+        }
+    })
+}
+
+/// Radius that stands for a sphere's whose size parameter alone is given, metres.
+const USUAL_RADIUS: f64 = 1e-6;
+
+fn rays(args: &ScatterArgs, job: &Job) -> Result<Scattering> {
+    // Said before anything about the shape, which may be wrong too.
+    check_rays(job.request.index, job.request.size_parameter, "")?;
+    if job.terms.diffraction {
+        return Err(usage("--orders diffraction: a term of --method debye only"));
+    }
+    let particle = RayRequest {
+        shape: shape(args, job)?,
+        orders: job.terms.orders.clone(),
+        diffraction: match args.diffraction.unwrap_or(DiffractionName::Airy) {
+            DiffractionName::None => RayDiffraction::None,
+            DiffractionName::Gaussian => {
+                RayDiffraction::Gaussian { radius: job.radius.unwrap_or(USUAL_RADIUS) }
+            }
+            DiffractionName::Airy => RayDiffraction::Airy,
+        },
+        rays_across: args.rays_across,
+    };
+    Ok(scatter::rays(&job.request, &particle)?)
+}
+
+/// Says on stderr where a result is worth less than was asked.
+fn note(seen: &Scattering) {
+    if let Some(left) = seen.remainder.filter(|left| left.not_converged) {
+        eprintln!(
+            "note: the sum of Debye terms up to order {} has not converged: what is left out is {:.1e} of \
+             the amplitude outside the forward peak; --method mie has all orders",
+            left.last_order, left.share
+        );
+    }
+    if let Some(doubt) = seen.doubt {
+        eprintln!(
+            "note: the phase shift through the particle, 2x|n - 1| = {:.1}, is small for rays \
+             (below {DOUBTFUL_PHASE_SHIFT}): intensities from 10 to 170 degrees are {:.0} % off, \
+             weighted by intensity, and {:.0} % on average over angles",
+            doubt.phase_shift,
+            100.0 * doubt.worth.weighted,
+            100.0 * doubt.worth.by_band
+        );
+    }
+}
+
+fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds: f64) -> Value {
+    let pairs = |f: fn(&AmplitudeMatrix) -> Complex64| -> Vec<[f64; 2]> {
+        seen.amplitudes.iter().map(|s| [f(s).re, f(s).im]).collect()
+    };
+    let budget = &seen.efficiencies;
+    json!({
+        "method": match args.method {
+            MethodName::Rays => "rays",
+            MethodName::Mie => "mie",
+            MethodName::Debye => "debye",
+        },
+        "size_parameter": job.request.size_parameter,
+        "index": [job.request.index.re, job.request.index.im],
+        "azimuth_deg": args.azimuth_deg,
+        "theta_deg": job.theta_deg,
+        "s1": pairs(|s| s.s1),
+        "s2": pairs(|s| s.s2),
+        "s3": pairs(|s| s.s3),
+        "s4": pairs(|s| s.s4),
+        "q_ext": budget.q_ext,
+        "q_sca": budget.q_sca,
+        "q_abs": budget.q_abs,
+        "q_back": budget.q_back,
+        "asymmetry": budget.asymmetry,
+        "diffraction_included": seen.diffraction_included,
+        "remainder": seen.remainder.map(|left| left.largest),
+        "remainder_share": seen.remainder.map(|left| left.share),
+        "seconds": seconds,
+    })
+}
+
+fn print_table(job: &Job, seen: &Scattering) {
+    let Request { size_parameter, index, .. } = job.request;
+    println!("# size parameter {size_parameter}, index {}+{}i", index.re, index.im);
+    println!("# theta_deg  S1  S2  S3  S4  S11");
+    for (theta, s) in job.theta_deg.iter().zip(&seen.amplitudes) {
+        let s11 = s.s11();
+        println!("{theta:9.4} {:.6e} {:.6e} {:.6e} {:.6e} {s11:.6e}", s.s1, s.s2, s.s3, s.s4);
+    }
+}

@@ -1,0 +1,5 @@
+//! What is shown beside the result: notes, bars and plots.
+
+pub mod notes;
+pub mod plot;
+pub mod progress;

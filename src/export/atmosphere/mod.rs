@@ -1,0 +1,8 @@
+//! Databases of scatterers for programs of radiative transfer in the air: Legendre moments by size.
+
+mod database;
+pub mod eradiate;
+mod legendre;
+pub mod libradtran;
+pub mod sasktran2;
+pub mod size_grid;

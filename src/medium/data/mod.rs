@@ -1,0 +1,6 @@
+//! Data of media: rows in units, made curves, made materials.
+
+pub(super) mod material;
+pub(super) mod samples;
+pub(super) mod table;
+pub(super) mod unit;

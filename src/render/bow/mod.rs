@@ -1,0 +1,184 @@
+//! A picture of a rainbow from its scene: what drops there are, where the sun and the camera stand.
+//!
+//! [`BowScene`] is the file's keys, as they are written; [`BowScene::draw`] reads or computes the tables of
+//! the drops, and draws the [`sky`](super::sky).
+
+mod drops;
+mod keys;
+
+pub use drops::DropKeys;
+pub use keys::{BowScene, CameraKeys, FilterKeys, RainKeys, SkyKeys, SunKeys};
+
+use super::camera::Camera;
+use super::sky::{Drops, RainShape, Sky, render};
+use super::{Picture, RenderError};
+use crate::color::{ColorError, decode_srgb};
+use crate::fault::{Blame, Fault};
+use crate::hdf5::TableError;
+use crate::medium::MediumError;
+use crate::phase_table::PhaseTable;
+use crate::plan::PlanError;
+use crate::scene::SceneError;
+use crate::series::SeriesError;
+use crate::simulate::SimulateError;
+use std::path::{Path, PathBuf};
+
+/// Why a picture of a scene cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum BowError {
+    #[error("{}: {source}", path.display())]
+    Read { path: PathBuf, source: std::io::Error },
+    #[error("the scene of the picture cannot be read: {}: {source}", path.display())]
+    Syntax { path: PathBuf, source: toml::de::Error },
+    /// Keys that are missing, contradict each other or have no such value.
+    #[error("{0}")]
+    Keys(String),
+    #[error(transparent)]
+    Color(#[from] ColorError),
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    #[error(transparent)]
+    Table(#[from] TableError),
+    #[error(transparent)]
+    Medium(#[from] MediumError),
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
+}
+
+impl Blame for BowError {
+    fn fault(&self) -> Fault {
+        match self {
+            BowError::Read { .. }
+            | BowError::Syntax { .. }
+            | BowError::Keys(_)
+            | BowError::Color(_)
+            | BowError::Medium(_)
+            | BowError::Scene(_)
+            | BowError::Plan(_) => Fault::Input,
+            BowError::Render(error) => error.fault(),
+            BowError::Table(error) => error.fault(),
+            BowError::Series(error) => error.fault(),
+            BowError::Simulate(error) => error.fault(),
+        }
+    }
+}
+
+/// The sun where neither the scene nor a table says it, degrees above the horizon.
+const USUAL_SUN: f64 = 20.0;
+/// Degrees, as people round them.
+const ROUNDING: f64 = 0.01;
+
+impl BowScene {
+    /// Compute or read the drops, and draw. Files that the scene names are looked for in `folder`;
+    /// `tell` hears what the user should know.
+    ///
+    /// # Errors
+    /// Keys that make no sense, told before drops are computed; tables that do not fit the picture.
+    pub fn draw(&self, folder: &Path, tell: &dyn Fn(String)) -> Result<Picture, BowError> {
+        let polarised = self.filter.polariser_deg.is_some();
+        let asked = self.sun.elevation_deg;
+        let usual = asked.unwrap_or(USUAL_SUN);
+        self.sky(usual.to_radians())?;
+        self.camera(usual.to_radians())?;
+        let tables = drops::tables(&self.drops, folder, usual, polarised, tell)?;
+        if let Some(note) = note_on_disc(&tables, self.sun.disc) {
+            tell(note);
+        }
+        let elevation = asked.map(f64::to_radians).unwrap_or_else(|| {
+            tables
+                .iter()
+                .map(|(t, _)| &t.header)
+                .find(|h| !h.rotational_symmetry)
+                .map_or(USUAL_SUN.to_radians(), |header| header.sun_elevation)
+        });
+        check_sun(elevation, &tables)?;
+        let sky = self.sky(elevation)?;
+        let camera = self.camera(elevation)?;
+        let drops: Vec<Drops<'_>> =
+            tables.iter().map(|(table, number)| Drops { table, number: *number }).collect();
+        Ok(render(&camera, &sky, &drops)?)
+    }
+
+    /// The camera, which looks at the top of the primary bow unless told otherwise.
+    fn camera(&self, sun_elevation: f64) -> Result<Camera, BowError> {
+        let keys = &self.camera;
+        let lens = keys.lens.as_deref().unwrap_or("rectilinear").parse()?;
+        // 42° above the antisolar point
+        let top = (42.0 - sun_elevation.to_degrees()).clamp(-60.0, 60.0);
+        let camera = Camera {
+            lens,
+            field_of_view: keys.fov_deg.unwrap_or(60.0).to_radians(),
+            elevation: keys.elevation_deg.unwrap_or(0.6 * top).to_radians(),
+            azimuth: keys.azimuth_deg.unwrap_or(0.0).to_radians(),
+            width: keys.width.unwrap_or(1280),
+            height: keys.height.unwrap_or(720),
+        };
+        camera.validate()?;
+        Ok(camera)
+    }
+
+    /// What is behind and around the drops.
+    fn sky(&self, sun_elevation: f64) -> Result<Sky, BowError> {
+        let degrees = sun_elevation.to_degrees();
+        if !(0.0..=90.0).contains(&degrees) {
+            let message = format!("sun.elevation_deg = {degrees}: accepted are 0 to 90");
+            return Err(BowError::Keys(message));
+        }
+        let rain = match self.rain.shape.as_deref() {
+            None | Some("curtain") => RainShape::Curtain,
+            Some("around") => RainShape::Around,
+            Some(other) => {
+                let message = format!("rain.shape = \"{other}\": accepted are curtain and around");
+                return Err(BowError::Keys(message));
+            }
+        };
+        let linear = |rgb: [u8; 3]| rgb.map(|v| decode_srgb(f64::from(v) / 255.0));
+        Ok(Sky {
+            sun_elevation,
+            sun_disc: self.sun.disc.unwrap_or(true),
+            illuminant: self.sun.illuminant.as_deref().unwrap_or("D65").parse()?,
+            observer: self.sun.observer.as_deref().unwrap_or("1931").parse()?,
+            rain,
+            optical_depth: self.rain.optical_depth.unwrap_or(1.0),
+            background: linear(self.sky.background.unwrap_or([107, 114, 118])),
+            ground: self.sky.ground.map(linear),
+            brightness: self.sky.brightness.unwrap_or(0.45),
+            exposure: self.sky.exposure,
+            polariser: self.filter.polariser_deg.map(f64::to_radians),
+            horizon_line: self.sky.horizon_line,
+        })
+    }
+}
+
+/// Says where the sun's disc is in a table already, so that the picture leaves it alone.
+fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) -> Option<String> {
+    let there = tables.iter().any(|(table, _)| table.header.averaging.has_sun_disc());
+    there.then(|| {
+        let wish = match asked {
+            Some(false) => "; sun.disc = false cannot take it out",
+            _ => " and is not applied again",
+        };
+        format!("the sun's disc is in the table already{wish}")
+    })
+}
+
+/// Refuses a sun elsewhere than where the table of a drop that is no sphere has it.
+fn check_sun(elevation: f64, tables: &[(PhaseTable, f64)]) -> Result<(), BowError> {
+    let given = elevation.to_degrees();
+    let suns = tables.iter().map(|(table, _)| &table.header);
+    let bound = suns.filter(|header| !header.rotational_symmetry);
+    let other = bound.map(|header| header.sun_elevation.to_degrees());
+    match other.into_iter().find(|own| (own - given).abs() > ROUNDING) {
+        Some(own) => Err(BowError::Keys(format!(
+            "sun.elevation_deg = {given}: a table of the drops was made for the sun at {own}°; \
+             make one for {given}°, or leave the elevation out"
+        ))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,7 @@
+//! Plots: the preview of a table, diagrams of colours, their axes and letters.
+
+pub mod color_diagram;
+pub mod font;
+pub mod heat_map;
+pub mod preview;
+mod ticks;

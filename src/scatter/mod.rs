@@ -1,0 +1,103 @@
+//! One particle in chosen directions: amplitude matrices, efficiencies and what is left out, by any
+//! method.
+//!
+//! Where [`simulate`](crate::simulate) makes tables of a scene, this answers for single directions and
+//! takes what it is told: an index, a size parameter, orders. [`lorenz_mie`] and [`debye`] serve spheres,
+//! [`rays`] any shape. Efficiencies refer to the sphere of equal volume.
+//!
+//! ```
+//! use gonio::scatter::{Request, lorenz_mie};
+//!
+//! let request = Request {
+//!     size_parameter: 100.0,
+//!     index: 1.333.into(),
+//!     theta: vec![0.0, 2.4],
+//!     azimuth: 0.0,
+//!     tolerance: 0.01,
+//! };
+//! let seen = lorenz_mie(&request).unwrap();
+//! let budget = seen.efficiencies;
+//! assert!((budget.q_ext - budget.q_sca).abs() < 1e-10);
+//! // Optical theorem, Q_ext = 4/x² Re S(0°)
+//! assert!((4e-4 * seen.amplitudes[0].s1.re / budget.q_ext - 1.0).abs() < 1e-9);
+//! ```
+
+mod rays;
+mod series;
+mod size;
+
+pub use rays::{Doubt, RayDiffraction, RayRequest, rays};
+pub use series::{DebyeTerms, debye, lorenz_mie};
+pub use size::{Size, SizeConflict};
+
+use crate::fault::{Blame, Fault};
+use crate::optics::AmplitudeMatrix;
+use crate::plan::PlanError;
+use crate::series::{Efficiencies, SeriesError};
+use crate::simulate::SimulateError;
+use num_complex::Complex64;
+
+/// Light of one wavelength on one particle, and where it is looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// `2πa/λ` of the sphere of equal volume.
+    pub size_parameter: f64,
+    pub index: Complex64,
+    /// Scattering angles, radians, in any order.
+    pub theta: Vec<f64>,
+    /// Of all directions, radians.
+    pub azimuth: f64,
+    /// Relative error asked of rays and of the number of Debye terms.
+    pub tolerance: f64,
+}
+
+/// What one method gives.
+#[derive(Clone, Debug)]
+pub struct Scattering {
+    /// In the order of the request's angles.
+    pub amplitudes: Vec<AmplitudeMatrix>,
+    pub efficiencies: Efficiencies,
+    /// Whether forward diffraction is among the amplitudes.
+    pub diffraction_included: bool,
+    /// What a sum over Debye's terms from the first on leaves out.
+    pub remainder: Option<Remainder>,
+    /// Where rays hardly serve.
+    pub doubt: Option<Doubt>,
+}
+
+/// What a sum over Debye's terms leaves out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Remainder {
+    /// Of the largest coefficient.
+    pub largest: f64,
+    /// Of the amplitudes, root mean square, relative to Lorenz–Mie without diffraction.
+    pub share: f64,
+    pub last_order: u32,
+    /// Whether the share is more than the tolerance, where the number of terms was this module's choice.
+    pub not_converged: bool,
+}
+
+/// Why a particle cannot be answered for.
+#[derive(Debug, thiserror::Error)]
+pub enum ScatterError {
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
+    /// Share of the light.
+    #[error("energy does not add up: {0:e} of the light is unaccounted for")]
+    Energy(f64),
+}
+
+impl Blame for ScatterError {
+    fn fault(&self) -> Fault {
+        match self {
+            ScatterError::Plan(error) => error.fault(),
+            ScatterError::Series(error) => error.fault(),
+            ScatterError::Simulate(error) => error.fault(),
+            ScatterError::Energy(_) => Fault::Run,
+        }
+    }
+}

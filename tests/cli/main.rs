@@ -1,0 +1,13 @@
+//! The program from outside: what it accepts, refuses, prints and leaves behind. One module per
+//! subject: `cargo test --release --test cli batch_resume::`.
+#![cfg(all(feature = "cli", feature = "hdf5"))]
+
+mod support;
+
+mod batch_contract;
+mod batch_resume;
+mod cli_bad_input;
+mod hostile_input;
+mod medium_cli;
+mod rays_contract;
+mod series_bad_input;

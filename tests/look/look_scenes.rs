@@ -1,0 +1,146 @@
+//! The shipped scenes of rainbows, and what `gonio render` and `gonio lee` say to bad input.
+
+use crate::gonio;
+use predicates::prelude::*;
+use std::path::{Path, PathBuf};
+
+fn scenes() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/bows");
+    let mut found: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    found.retain(|path| path.extension().is_some_and(|e| e == "toml"));
+    found.sort();
+    found
+}
+
+/// A small sphere with few wavelengths, so that a picture takes no time.
+fn scene(text: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+/// Every scene is read to its end: with a sun below the horizon laid over it, the sun is the first
+/// thing that is wrong, before any drop is computed.
+#[test]
+fn every_shipped_scene_parses() {
+    let scenes = scenes();
+    assert!(scenes.len() >= 17, "{scenes:?}");
+    let folder = tempfile::tempdir().unwrap();
+    for path in scenes {
+        gonio()
+            .arg("render")
+            .arg(&path)
+            .args(["--sun-elevation-deg", "-1", "-o"])
+            .arg(folder.path().join("bow.png"))
+            .assert()
+            .code(2)
+            .stderr(predicate::str::contains("sun.elevation_deg = -1"));
+    }
+}
+
+/// The paper's Fig. 13: at 0.4 mm its method and Lorenz–Mie give one picture, since the drop is round.
+#[test]
+fn a_raindrop_of_0_4_mm_looks_like_a_sphere() {
+    let folder = tempfile::tempdir().unwrap();
+    let picture = |kind: &str| {
+        let png = folder.path().join(format!("{kind}.png"));
+        let scene = format!("{}/data/scenes/bows/size_04_{kind}.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut command = gonio();
+        command.args(["render", &scene, "--width", "64", "--height", "36", "-o"]).arg(&png);
+        command.assert().success();
+        std::fs::read(png).unwrap()
+    };
+    assert!(picture("raindrop") == picture("sphere"));
+}
+
+#[test]
+fn a_camera_that_sees_no_sky_is_refused() {
+    let text = "[camera]\nfov_deg = 20\nelevation_deg = -60\nwidth = 32\nheight = 18\n[sky]\n\
+                ground = [0, 0, 0]\n[[drops]]\nradius_mm = 0.01\n";
+    let (folder, path) = scene(text);
+    let picture = folder.path().join("bow.png");
+    gonio().arg("render").arg(&path).arg("-o").arg(&picture).assert().code(2).stderr(
+        predicate::str::contains("camera").and(predicate::str::contains("view of the sky")),
+    );
+    assert!(!picture.exists());
+}
+
+#[test]
+fn an_unknown_key_names_its_line() {
+    let (folder, path) = scene("[sun]\nelevation = 20\n");
+    gonio()
+        .arg("render")
+        .arg(&path)
+        .arg("-o")
+        .arg(folder.path().join("bow.png"))
+        .assert()
+        .code(2)
+        .stderr(predicate::str::contains("elevation").and(predicate::str::contains("line 2")));
+}
+
+/// A table of the given axes, then a picture from it.
+fn picture_of(wavelengths: &str, theta: (f64, f64), camera: &[&str]) -> assert_cmd::assert::Assert {
+    let (folder, path) = scene(&format!(
+        "[particle]\nshape = \"sphere\"\nradius_mm = 0.01\n[light]\nwavelengths_nm = {wavelengths}\n\
+         [table]\ntheta_deg = {{ from = {}, to = {}, count = 41 }}\n",
+        theta.0, theta.1
+    ));
+    let table = folder.path().join("t.h5");
+    gonio().arg("table").arg(&path).arg("-o").arg(&table).assert().success();
+    gonio()
+        .args(["render", "--width", "32", "--height", "18", "--table"])
+        .arg(&table)
+        .args(camera)
+        .arg("-o")
+        .arg(folder.path().join("bow.png"))
+        .assert()
+}
+
+#[test]
+fn a_table_that_makes_no_picture_is_refused_clearly() {
+    let few = "[500.0, 600.0]";
+    picture_of(few, (90.0, 180.0), &[])
+        .code(2)
+        .stderr(predicate::str::contains("do not cover the visible"));
+    let visible = "{ from = 400, to = 700, count = 13 }";
+    picture_of(visible, (10.0, 40.0), &[])
+        .code(2)
+        .stderr(predicate::str::contains("none of the scattering angles seen is in a table"));
+    picture_of(visible, (90.0, 180.0), &["--polariser-deg", "0"])
+        .code(2)
+        .stderr(predicate::str::contains("mueller"));
+    picture_of(visible, (90.0, 180.0), &["--lens", "pinhole"])
+        .code(2)
+        .stderr(predicate::str::contains("pinhole").and(predicate::str::contains("equal-area")));
+    picture_of(visible, (90.0, 180.0), &[]).success();
+}
+
+/// The corona and the glory, with the sun's disc across the axis.
+#[test]
+fn diagrams_reach_both_ends_of_the_axis() {
+    for theta in ["0:4:0.5", "176:180:0.5"] {
+        gonio()
+            .args(["lee", "--json", "--radius-mm", "0.005:0.01:3", "--theta", theta])
+            .assert()
+            .success();
+    }
+}
+
+#[test]
+fn a_diagram_that_makes_no_sense_is_refused_clearly() {
+    for (flags, said) in [
+        (["--radius-mm", "1:0.1:5"], "--radius-mm"),
+        (["--theta", "150:120:0.1"], "--theta"),
+        (["--illuminant", "moon"], "moon"),
+        (["--size-spread", "2"], "size_spread"),
+    ] {
+        gonio()
+            .args(["lee", "--json"])
+            .args(flags)
+            .assert()
+            .code(2)
+            .stderr(predicate::str::contains(said));
+    }
+}
