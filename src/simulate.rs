@@ -21,6 +21,7 @@ use crate::series::debye::Term;
 use crate::series::mean::MeanError;
 use crate::series::table::{Source, SphereJob, sphere_slab};
 use crate::size_distribution::SizeDistribution;
+use crate::tabulate::scattered_power::scattered_power;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
@@ -41,6 +42,12 @@ pub enum SimulateError {
         "energy does not add up at {wavelength_nm} nm: {residual:e} of the light is unaccounted for"
     )]
     Energy { wavelength_nm: f64, residual: f64 },
+    #[error(
+        "energy does not add up at {wavelength_nm} nm: in units of the squared radius the amplitudes \
+         scatter {power:.3}, while extinction less absorption is {left:.3}; rays do not serve a particle \
+         as small, soft or deformed as this one"
+    )]
+    Imbalance { wavelength_nm: f64, power: f64, left: f64 },
     #[error("the table would be wrong: {0}")]
     Wrong(#[from] InvalidTable),
     #[error("the amplitudes would be wrong: {0}")]
@@ -56,6 +63,7 @@ impl Blame for SimulateError {
             SimulateError::Mean(error) => error.fault(),
             SimulateError::Energy { .. }
             | SimulateError::Wrong(_)
+            | SimulateError::Imbalance { .. }
             | SimulateError::Amplitudes(_) => Fault::Run,
         }
     }
@@ -65,6 +73,10 @@ impl Blame for SimulateError {
 const ENERGY_GRID: usize = 100;
 /// Largest share of light that the energy budget may lose to rounding.
 const ENERGY_TOLERANCE: f64 = 1e-6;
+
+/// Largest share of the scattered power by which its two sums may differ; up to there the difference is in
+/// the stated error.
+const MOST_LOST: f64 = 0.25;
 
 /// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
 /// with its index while the next one is being computed. No slab is handed on that
@@ -138,7 +150,11 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let budget = energy(plan, wavelength, index, size_parameter)?;
     let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
     let far_field = far_field(plan, index, size_parameter, &scene.phi, in_table);
-    let sections = CrossSections::new(plan, &far_field, index, budget.absorbed);
+    // Kept apart, the peak is not joined to the rays at the edge; cross-sections are those of the whole.
+    let apart = plan.forward_diffraction && !in_table && plan.engine == Engine::Meridians;
+    let joined = apart.then(|| self::far_field(plan, index, size_parameter, &scene.phi, true));
+    let whole = joined.as_ref().unwrap_or(&far_field);
+    let sections = CrossSections::new(plan, whole, index, budget.absorbed);
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
     let treatment = Treatment {
@@ -173,6 +189,10 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     } else {
         ErrorEstimate::UNKNOWN
     };
+    let error_estimate = match imbalance(plan, whole, &sections, wavelength)? {
+        Some(lost) => error_estimate.at_least(lost),
+        None => error_estimate,
+    };
     let known = !error_estimate.weighted.is_nan();
     let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
@@ -184,8 +204,8 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         extinction_cross_section: sections.extinction * plan.radius * plan.radius,
         absorption_cross_section: sections.absorption * plan.radius * plan.radius,
         // Patches have no sound wave straight ahead.
-        forward_extinction: (plan.forward_diffraction && far_field.straight_forward().is_some())
-            .then(|| straight_ahead(&far_field, computed[0]) * plan.radius * plan.radius),
+        forward_extinction: (plan.forward_diffraction && whole.straight_forward().is_some())
+            .then(|| straight_ahead(whole, computed[0]) * plan.radius * plan.radius),
         asymmetry,
         energy: Some(budget),
         sum_before_peak,
@@ -197,6 +217,27 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         methods,
         tolerance_met,
     })
+}
+
+/// How far the power that the amplitudes scatter is from what extinction and absorption leave, as a share of
+/// it: of the whole of the waves of small particles, where it can be added up.
+fn imbalance(
+    plan: &Plan,
+    far_field: &FarField,
+    sections: &CrossSections,
+    wavelength: f64,
+) -> Result<Option<f64>, SimulateError> {
+    if !(plan.engine == Engine::Meridians && plan.complete && plan.forward_diffraction) {
+        return Ok(None);
+    }
+    let rotational = plan.symmetry == Symmetry::Rotational;
+    let Some(power) = scattered_power(far_field, rotational) else { return Ok(None) };
+    let lost = (power / sections.scattering() - 1.0).abs();
+    if lost <= MOST_LOST {
+        return Ok(Some(lost));
+    }
+    let (wavelength_nm, left) = (wavelength * 1e9, sections.scattering());
+    Err(SimulateError::Imbalance { wavelength_nm, power, left })
 }
 
 /// Extinction by the optical theorem, in units of the squared radius, from what the columns of a table

@@ -32,6 +32,12 @@ impl ErrorEstimate {
     pub const UNKNOWN: Self =
         Self { weighted: f64::NAN, by_band: f64::NAN, by_direction: [f64::NAN; ERROR_BANDS] };
 
+    /// With means that are no less than this.
+    pub fn at_least(self, least: f64) -> Self {
+        let most = |error: f64| if error < least { least } else { error };
+        Self { weighted: most(self.weighted), by_band: most(self.by_band), ..self }
+    }
+
     /// From squared relative errors and summed squared intensities of the bands.
     fn of_bands(squares: &[f64; ERROR_BANDS], intensities: &[f64; ERROR_BANDS]) -> Self {
         let (mut weighted, mut total, mut relative) = (0.0, 0.0, 0.0);

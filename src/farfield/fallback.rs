@@ -18,20 +18,27 @@ struct Part {
     field: Box<dyn WaveField>,
     /// Share of its amplitude by which its wave may be wrong, measured against Debye terms.
     doubt: f64,
+    /// Whether that is a share of the wave's median over the scattering angle where it is brighter: what is
+    /// wrong of a deformed body's bows and rings stands in all directions, not in its bright ones.
+    everywhere: bool,
 }
 
 impl FallbackField {
-    /// What an assignment leaves beside scattering planes; `waves` are its partial waves.
+    /// What an assignment leaves beside scattering planes; `waves` are its partial waves, of
+    /// a body whose outline has some deformation.
     pub(crate) fn new(
         tracer: &Tracer,
         waves: Option<PartialWaves>,
+        deformation: f64,
         assignment: &Assignment,
         settings: &FarFieldSettings,
     ) -> Self {
         let mut parts = Vec::new();
         if let Some(waves) = waves {
-            // their error is measured on the sphere of equal volume
-            parts.push(Part { field: Box::new(waves), doubt: 0.0 });
+            // of a sphere theirs is measured
+            let by = assignment.thresholds();
+            let doubt = by.doubt_of_deformed_waves(settings.size_parameter, deformation);
+            parts.push(Part { field: Box::new(waves), doubt, everywhere: true });
         }
         let doubt = |orders: &[u32]| orders.iter().min().map(|&lowest| assignment.error_of(lowest));
         let (reflected, transmitted): (Vec<u32>, Vec<u32>) =
@@ -39,14 +46,14 @@ impl FallbackField {
         for orders in [reflected, transmitted] {
             if let Some(doubt) = doubt(&orders) {
                 let field = Box::new(PatchField::of_orders(tracer, &orders, settings));
-                parts.push(Part { field, doubt });
+                parts.push(Part { field, doubt, everywhere: false });
             }
         }
         let by_beams = assignment.orders_of(Method::Beams);
         if let Some(doubt) = doubt(&by_beams) {
             let (azimuths, x) = (settings.azimuths, settings.size_parameter);
             let field = Box::new(GaussianBeams::new(tracer, &by_beams, azimuths, x));
-            parts.push(Part { field, doubt });
+            parts.push(Part { field, doubt, everywhere: false });
         }
         Self(parts)
     }
@@ -56,13 +63,22 @@ impl FallbackField {
         let mut sums = vec![AmplitudeMatrix::default(); theta.len()];
         let mut wrong = vec![0.0; theta.len()];
         for part in &self.0 {
-            for (i, wave) in waves(&*part.field, theta, phi).into_iter().enumerate() {
+            let waves = waves(&*part.field, theta, phi);
+            let most = if part.everywhere { median(&waves) } else { f64::INFINITY };
+            for (i, wave) in waves.into_iter().enumerate() {
                 sums[i] += wave;
-                wrong[i] += part.doubt * part.doubt * wave.s11();
+                wrong[i] += part.doubt * part.doubt * wave.s11().min(most);
             }
         }
         (sums, wrong)
     }
+}
+
+/// The median of `S11` over some directions.
+fn median(waves: &[AmplitudeMatrix]) -> f64 {
+    let mut sizes: Vec<f64> = waves.iter().map(AmplitudeMatrix::s11).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
 }
 
 impl WaveField for FallbackField {

@@ -79,7 +79,8 @@ impl<'a> FarField<'a> {
         let assignment = assignment.after(Outcome::CrossCheck(&differences));
 
         let planes = planes.only(&assignment.orders_of(Method::Planes));
-        let fallback = FallbackField::new(tracer, waves, &assignment, settings);
+        let fallback =
+            FallbackField::new(tracer, waves, silhouette.deformation(), &assignment, settings);
         Self {
             source: Source::Planes(Box::new(planes), fallback),
             assignment: Some(assignment),
@@ -100,6 +101,19 @@ impl<'a> FarField<'a> {
         let mut orders: Vec<u32> = of(Method::Beams).chain(of(Method::Patches)).collect();
         orders.sort_unstable();
         orders
+    }
+
+    /// `2πr/λ`.
+    pub fn size_parameter(&self) -> f64 {
+        self.size_parameter
+    }
+
+    /// Whether any azimuth can be asked for, and not only those that it was made for.
+    pub fn serves_any_azimuth(&self) -> bool {
+        match &self.source {
+            Source::Patches(..) => true,
+            Source::Planes(planes, _) => planes.serve_any_azimuth(),
+        }
     }
 
     /// The wave that goes straight on.

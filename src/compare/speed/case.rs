@@ -1,15 +1,34 @@
 //! What is computed in a bench, and the truth of it.
 
-use super::SpeedError;
 use crate::farfield::Direction;
 use crate::farfield::reference::huygens_fresnel::HuygensFresnel;
+use crate::fault::{Blame, Fault};
 use crate::plan::{Engine, Plan, last_order};
+use crate::series::SeriesError;
 use crate::series::lorenz_mie::Sphere;
-use crate::shape::{RaindropModel, Shape};
+use crate::shape::{RaindropModel, Shape, ShapeError};
 use crate::simulate;
 use crate::trace::Tracer;
 use num_complex::Complex64;
 use std::f64::consts::TAU;
+
+/// Why a case has no truth.
+#[derive(Debug, thiserror::Error)]
+pub enum SpeedError {
+    #[error(transparent)]
+    Series(#[from] SeriesError),
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+}
+
+impl Blame for SpeedError {
+    fn fault(&self) -> Fault {
+        match self {
+            SpeedError::Series(error) => error.fault(),
+            SpeedError::Shape(error) => error.fault(),
+        }
+    }
+}
 
 /// Red light in water.
 const WAVELENGTH: f64 = 650e-9;

@@ -8,31 +8,10 @@
 mod case;
 mod paper;
 
-pub use case::SpeedCase;
+pub use case::{SpeedCase, SpeedError};
 
-use crate::fault::{Blame, Fault};
-use crate::series::SeriesError;
-use crate::shape::ShapeError;
 use serde::Serialize;
 use std::time::Instant;
-
-/// Why a case has no truth.
-#[derive(Debug, thiserror::Error)]
-pub enum SpeedError {
-    #[error(transparent)]
-    Series(#[from] SeriesError),
-    #[error(transparent)]
-    Shape(#[from] ShapeError),
-}
-
-impl Blame for SpeedError {
-    fn fault(&self) -> Fault {
-        match self {
-            SpeedError::Series(error) => error.fault(),
-            SpeedError::Shape(error) => error.fault(),
-        }
-    }
-}
 
 /// How finely each method is tried.
 #[derive(Clone, Debug)]

@@ -78,6 +78,11 @@ impl PlaneSet {
         found.chain(lost).collect()
     }
 
+    /// Whether every order can be asked for at any azimuth.
+    pub(crate) fn serve_any_azimuth(&self) -> bool {
+        self.orders.iter().all(|planes| !matches!(planes.azimuths, Azimuths::Listed(_)))
+    }
+
     /// Some azimuths at which an order can be asked for.
     pub(crate) fn some_azimuths(&self, order: u32, count: usize) -> Vec<f64> {
         let place = |k: usize| (k as f64 + 0.31) / count as f64;

@@ -420,7 +420,7 @@ mod tests {
     /// sample within has the wave of its angle, the others nothing.
     #[test]
     fn cubics_are_swept_as_a_plain_sum_adds_them() {
-        let mut angles = vec![0.41, 0.5, 0.62, 0.93, 1.3, 1.313, 2.05];
+        let mut angles = [0.41, 0.5, 0.62, 0.93, 1.3, 1.313, 2.05];
         let kind = Kind::Plain { focal_lines: 3, from_axis: false };
         for (side, sign, turn) in [
             (Side::Near, 1.0, 0.0),

@@ -150,7 +150,7 @@ mod tests {
     fn the_wave_is_added_about_its_own_axis() {
         for (forward, theta) in [(true, [0.0, 0.1, 0.5]), (false, [PI, PI - 0.1, PI - 0.5])] {
             let (glory, _) = ring(forward, 80.0);
-            let mut sums = vec![AmplitudeMatrix::default(); 3];
+            let mut sums = [AmplitudeMatrix::default(); 3];
             glory.add(&theta, &mut sums);
             let sign = if forward { 1.0 } else { -1.0 };
             assert!((sums[0].s1 - sums[0].s2 * sign).norm() < 1e-15 && sums[0].s11() > 0.0);

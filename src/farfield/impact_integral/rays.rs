@@ -440,7 +440,7 @@ mod tests {
                 .into(),
             last_turn,
         };
-        let mut rows = vec![row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
+        let mut rows = [row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
         unwrap_turns(&mut rows);
         let first = |k: usize| rows[k].meetings[0].turn;
         assert!((first(1) - (TAU - 3.1)).abs() < 1e-15 && (first(2) - (TAU - 3.0)).abs() < 1e-15);

@@ -130,14 +130,14 @@ mod tests {
     #[test]
     fn a_constant_stays() {
         let theta: Vec<f64> = (0..300).map(|k| 2.0 + 1e-5 * f64::from(k * k)).collect();
-        let found = apply(&theta, &vec![0.7; 300], &[Bow { theta: 2.3, order: 2 }], 0.05);
+        let found = apply(&theta, &[0.7; 300], &[Bow { theta: 2.3, order: 2 }], 0.05);
         assert!(found.iter().all(|v| (v - 0.7).abs() < 1e-13));
     }
 
     #[test]
     fn bows_are_where_rays_of_an_order_come_or_go() {
         let theta = [1.0, 1.1, 1.2, 1.3];
-        let counts = vec![vec![1, 1, 0], vec![1, 3, 2, 1], vec![1, 1, 2], vec![1, 1, 0, 2]];
+        let counts = [vec![1, 1, 0], vec![1, 3, 2, 1], vec![1, 1, 2], vec![1, 1, 0, 2]];
         let found: Vec<(f64, u32)> =
             bows(&theta, &counts).into_iter().map(|bow| (bow.theta, bow.order)).collect();
         // orders 0 and 1 have none; one ray more is no bow

@@ -1,6 +1,6 @@
 //! The drops of a picture: tables read from files, or computed for the picture.
 
-use super::BowError;
+use super::error::BowError;
 use crate::lee::{Beats, Sampling, SamplingNeed};
 use crate::medium::{Medium, MediumSpec};
 use crate::optics::AmplitudeMatrix;

@@ -1,6 +1,7 @@
 //! The keys of a picture's scene.
 
-use super::{BowError, DropKeys};
+use super::drops::DropKeys;
+use super::error::BowError;
 use serde::Deserialize;
 use std::path::Path;
 use std::str::FromStr;

@@ -4,70 +4,19 @@
 //! the drops, and draws the [`sky`](super::sky).
 
 mod drops;
+mod error;
 mod keys;
 
 pub use drops::DropKeys;
+pub use error::BowError;
 pub use keys::{BowScene, CameraKeys, FilterKeys, RainKeys, SkyKeys, SunKeys};
 
+use super::Picture;
 use super::camera::Camera;
 use super::sky::{Drops, RainShape, Sky, render};
-use super::{Picture, RenderError};
-use crate::color::{ColorError, decode_srgb};
-use crate::fault::{Blame, Fault};
-use crate::hdf5::TableError;
-use crate::medium::MediumError;
+use crate::color::decode_srgb;
 use crate::phase_table::PhaseTable;
-use crate::plan::PlanError;
-use crate::scene::SceneError;
-use crate::series::SeriesError;
-use crate::simulate::SimulateError;
-use std::path::{Path, PathBuf};
-
-/// Why a picture of a scene cannot be made.
-#[derive(Debug, thiserror::Error)]
-pub enum BowError {
-    #[error("{}: {source}", path.display())]
-    Read { path: PathBuf, source: std::io::Error },
-    #[error("the scene of the picture cannot be read: {}: {source}", path.display())]
-    Syntax { path: PathBuf, source: toml::de::Error },
-    /// Keys that are missing, contradict each other or have no such value.
-    #[error("{0}")]
-    Keys(String),
-    #[error(transparent)]
-    Color(#[from] ColorError),
-    #[error(transparent)]
-    Render(#[from] RenderError),
-    #[error(transparent)]
-    Table(#[from] TableError),
-    #[error(transparent)]
-    Medium(#[from] MediumError),
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    #[error(transparent)]
-    Series(#[from] SeriesError),
-    #[error(transparent)]
-    Simulate(#[from] SimulateError),
-}
-
-impl Blame for BowError {
-    fn fault(&self) -> Fault {
-        match self {
-            BowError::Read { .. }
-            | BowError::Syntax { .. }
-            | BowError::Keys(_)
-            | BowError::Color(_)
-            | BowError::Medium(_)
-            | BowError::Scene(_)
-            | BowError::Plan(_) => Fault::Input,
-            BowError::Render(error) => error.fault(),
-            BowError::Table(error) => error.fault(),
-            BowError::Series(error) => error.fault(),
-            BowError::Simulate(error) => error.fault(),
-        }
-    }
-}
+use std::path::Path;
 
 /// The sun where neither the scene nor a table says it, degrees above the horizon.
 const USUAL_SUN: f64 = 20.0;

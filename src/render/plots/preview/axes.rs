@@ -2,7 +2,12 @@
 
 use crate::math::digits::to_digits;
 use crate::render::plots::heat_map::power_of_ten;
+use plotters::coord::Shift;
+use plotters::prelude::{BitMapBackend, DrawingArea};
 use std::ops::Range;
+
+/// A part of the picture.
+pub(super) type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
 /// Share of the directions that may lie below (and, in the heat map, above) the scale: the forward
 /// peak and the zeros of interference would else leave no room for the bow.

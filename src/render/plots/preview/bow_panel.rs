@@ -1,7 +1,6 @@
 //! The preview's panel of colours: the bow as the sun's disc shows it.
 
-use super::Area;
-use super::axes::{TICKS, degrees, labels_over, within};
+use super::axes::{Area, TICKS, degrees, labels_over, within};
 use crate::color::{Illuminant, Observer, SUN_ANGULAR_RADIUS, to_srgb};
 use crate::phase_table::PhaseTable;
 use crate::render::RenderError;

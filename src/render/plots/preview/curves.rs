@@ -1,7 +1,7 @@
 //! Curves of the preview: the phase function over the scattering angle, and the error it states.
 
-use super::axes::{TICKS, decade_label, degrees, labels_over, log_range};
-use super::{Area, error_strip};
+use super::axes::{Area, TICKS, decade_label, degrees, labels_over, log_range};
+use super::error_strip;
 use crate::color::wavelength_srgb;
 use crate::phase_table::{PhaseTable, Slab};
 use crate::render::RenderError;

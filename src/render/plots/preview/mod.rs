@@ -13,16 +13,14 @@ use crate::render::directions::DirectionGrid;
 use crate::render::picture::Picture;
 use crate::render::plots::font::{FONT, ensure_font};
 use crate::render::plots::heat_map::{colour_bar, draw_pixels};
-use axes::{OFF_SCALE, degrees, labels_over, log_range, within};
+use axes::{Area, OFF_SCALE, degrees, labels_over, log_range, within};
 use bow_panel::{bow_colors, draw_bow};
 use curves::draw_curves;
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
 
 const WIDTH: u32 = 1280;
 const HEIGHT: u32 = 960;
-type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
 /// Draw the preview and write it as PNG; the file appears only when it is complete.
 ///
