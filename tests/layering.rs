@@ -327,7 +327,7 @@ const FARFIELD: [&[&str]; 13] = [
     &["deflection"],
     &["branch"],
     &["assignment"],
-    &["column.rs", "direction.rs", "settings.rs"],
+    &["column.rs", "direction.rs", "settings.rs", "wave_field.rs"],
 ];
 
 #[test]

@@ -8,6 +8,7 @@
 use crate::farfield::assignment::{Difference, Thresholds};
 use crate::farfield::azimuth::plane_set::PlaneSet;
 use crate::farfield::gaussian_beams::GaussianBeams;
+use crate::farfield::wave_field::waves;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
@@ -32,10 +33,8 @@ pub(crate) fn differences(
         let beams = GaussianBeams::new(tracer, &[order], &azimuths, size_parameter);
         let mut share = 0.0f64;
         for phi in azimuths {
-            let mut waves = vec![AmplitudeMatrix::default(); SAMPLES];
-            beams.add(&theta, phi, &mut waves);
             let found = planes.columns_of(order, &theta, phi);
-            share = share.max(largest_share(&found, &waves, by.faint_band));
+            share = share.max(largest_share(&found, &waves(&beams, &theta, phi), by.faint_band));
             if share > by.gross_difference {
                 break;
             }

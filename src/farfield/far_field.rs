@@ -9,9 +9,9 @@ use super::fallback::FallbackField;
 use super::forward::diffraction::ForwardDiffraction;
 use super::forward::wave::ForwardWave;
 use super::partial_waves::PartialWaves;
-use super::patches::collecting_sphere::CollectingSphere;
-use super::patches::interference::{Interference, PathInterpolation};
+use super::patches::field::PatchField;
 use super::patches::{gaussian_filter, sheets};
+use super::wave_field::{WaveField, waves};
 use crate::farfield::settings::FarFieldSettings;
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Shape;
@@ -30,7 +30,7 @@ pub struct FarField<'a> {
 
 /// How amplitudes are found.
 pub(crate) enum Source {
-    Patches(CollectingSphere, Interference),
+    Patches(PatchField),
     /// Scattering planes, and something else for the orders whose planes do not correspond.
     Planes(Box<PlaneSet>, FallbackField),
 }
@@ -38,11 +38,8 @@ pub(crate) enum Source {
 impl<'a> FarField<'a> {
     /// Patches on the collecting sphere.
     pub fn patches(shape: &'a Shape, sheets: Vec<sheets::Sheet>, size_parameter: f64) -> Self {
-        let interpolation = PathInterpolation::Gradient;
-        let largest_jacobian = f64::INFINITY;
-        let interference = Interference { size_parameter, interpolation, largest_jacobian };
         Self {
-            source: Source::Patches(CollectingSphere::new(sheets), interference),
+            source: Source::Patches(PatchField::of_sheets(sheets, size_parameter)),
             assignment: None,
             silhouette: ForwardDiffraction::new(shape),
             size_parameter,
@@ -122,7 +119,7 @@ impl<'a> FarField<'a> {
     /// The wave that goes straight on.
     pub fn forward_wave(&self) -> ForwardWave<'_> {
         let edge = match &self.source {
-            Source::Patches(..) => None,
+            Source::Patches(_) => None,
             Source::Planes(planes, _) => planes.edge(),
         };
         ForwardWave { shadow: &self.silhouette, edge, size_parameter: self.size_parameter }
@@ -204,23 +201,21 @@ impl<'a> FarField<'a> {
     /// All scattering angles at each of some azimuths in [0, π], without forward diffraction.
     pub fn columns(&self, theta: &[f64], azimuths: &[f64], incoherent: bool) -> Vec<Column> {
         match &self.source {
-            Source::Patches(sphere, interference) => azimuths
-                .iter()
-                .map(|&phi| patch_column(sphere, interference, theta, phi, incoherent))
-                .collect(),
+            Source::Patches(patches) => {
+                let column = |&phi| patch_column(patches, theta, phi, incoherent);
+                azimuths.iter().map(column).collect()
+            }
             Source::Planes(planes, fallback) => {
+                let mut columns = planes.columns(theta, azimuths);
+                fallback.add_columns(theta, azimuths, &mut columns);
                 let caustic_order = planes.caustic_order(theta);
-                let columns = planes.columns(theta, azimuths).into_iter().zip(azimuths);
-                let finish = |(mut amplitude, &phi): (Vec<AmplitudeMatrix>, &f64)| {
-                    fallback.add(theta, phi, &mut amplitude);
-                    Column {
-                        amplitude,
-                        incoherent: Vec::new(),
-                        rays: Vec::new(),
-                        caustic_order: caustic_order.clone(),
-                    }
+                let column = |amplitude| Column {
+                    amplitude,
+                    incoherent: Vec::new(),
+                    rays: Vec::new(),
+                    caustic_order: caustic_order.clone(),
                 };
-                columns.map(finish).collect()
+                columns.into_iter().map(column).collect()
             }
         }
     }
@@ -228,12 +223,11 @@ impl<'a> FarField<'a> {
     /// Amplitudes in single directions `(θ, φ)`, with forward diffraction where asked.
     pub fn scatter(&self, directions: &[(f64, f64)], diffraction: bool) -> Vec<AmplitudeMatrix> {
         let mut amplitudes = match &self.source {
-            Source::Patches(sphere, interference) => directions
-                .iter()
-                .map(|&(t, p)| interference.collect(sphere, &Direction::new(t, p)).amplitude)
-                .collect(),
+            Source::Patches(patches) => {
+                directions.iter().map(|&(theta, phi)| waves(patches, &[theta], phi)[0]).collect()
+            }
             Source::Planes(planes, fallback) => scatter_by_columns(directions, |theta, phi| {
-                let mut column = planes.columns(theta, &[phi]).swap_remove(0);
+                let mut column = waves(&**planes, theta, phi);
                 fallback.add(theta, phi, &mut column);
                 column
             }),
@@ -262,13 +256,7 @@ fn scaled_to(amplitude: AmplitudeMatrix, intensity: f64) -> AmplitudeMatrix {
 }
 
 /// A column collected patch by patch.
-fn patch_column(
-    sphere: &CollectingSphere,
-    interference: &Interference,
-    theta: &[f64],
-    phi: f64,
-    incoherent: bool,
-) -> Column {
+fn patch_column(patches: &PatchField, theta: &[f64], phi: f64, incoherent: bool) -> Column {
     let mut column = Column {
         amplitude: Vec::with_capacity(theta.len()),
         incoherent: Vec::new(),
@@ -276,7 +264,7 @@ fn patch_column(
         caustic_order: Vec::new(),
     };
     for &t in theta {
-        let found = interference.collect(sphere, &Direction::new(t, phi));
+        let found = patches.interference.collect(&patches.sphere, &Direction::new(t, phi));
         column.amplitude.push(found.amplitude);
         if incoherent {
             column.incoherent.push(found.incoherent);

@@ -48,9 +48,11 @@ pub mod patches;
 pub mod reference;
 mod settings;
 pub mod sphere_check;
+mod wave_field;
 
 pub use column::Column;
 pub use direction::Direction;
 pub use error_estimate::ErrorEstimate;
 pub use far_field::FarField;
 pub use settings::FarFieldSettings;
+pub use wave_field::{WaveField, waves};

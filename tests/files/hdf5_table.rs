@@ -4,7 +4,7 @@
 use crate::support::{header, slab, table};
 use gonio::fault::{Blame, Fault};
 use gonio::hdf5::{self, TableError, TableReader, TableWriter, WriteOptions};
-use gonio::phase_table::{PhaseTable, Quantity};
+use gonio::phase_table::{PhaseTable, Quantity, Slab};
 use std::fs;
 
 fn undated() -> WriteOptions {
@@ -191,4 +191,21 @@ fn a_table_larger_than_the_disk_is_refused_with_its_size() {
     assert_eq!(error.fault(), Fault::Input);
     assert!(error.to_string().contains("needs up to 640.0 TB"), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+/// However many ranges of methods there are, they come back (an attribute may be larger than 64 KiB).
+#[test]
+fn many_methods_are_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.h5");
+    let mut written = table(header(600, 2, 1, Quantity::PhaseFunction));
+    let first = written.slabs[0].clone();
+    for (index, slab) in written.slabs.iter_mut().enumerate() {
+        *slab = Slab { wavelength: slab.wavelength, ..first.clone() };
+        slab.methods[0].method = format!("method {}", index % 2);
+    }
+    hdf5::write(&path, &written, undated()).unwrap();
+    let text = TableReader::open(&path).unwrap().attribute("methods").unwrap().unwrap();
+    assert!(text.len() > 1 << 16, "{} bytes", text.len());
+    assert_same(&hdf5::read(&path).unwrap(), &written);
 }

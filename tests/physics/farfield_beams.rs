@@ -5,7 +5,7 @@ use gonio::farfield::FarFieldSettings;
 use gonio::farfield::gaussian_beams::GaussianBeams;
 use gonio::farfield::patches::sheets;
 use gonio::farfield::reference::huygens_fresnel::HuygensFresnel;
-use gonio::farfield::{Direction, FarField};
+use gonio::farfield::{Direction, FarField, WaveField};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};

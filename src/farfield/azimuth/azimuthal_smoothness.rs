@@ -6,13 +6,11 @@
 //! faster than there are planes. So every plane is compared with the polynomial through its
 //! neighbours.
 
-use crate::farfield::branch::knots::{Kind, Knot, PLAIN_AMPLITUDE, Segment};
+use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 
 /// Weights of the neighbours one, two and three steps away on either side, of the polynomial of fifth
 /// degree through them, half-way.
 const WEIGHTS: [f64; 3] = [0.75, -0.3, 0.05];
-/// Channels of S1 and S2, which are even in azimuth.
-const EVEN: std::ops::Range<usize> = PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 4;
 
 /// Largest difference between planes at even steps over a half-turn and what their neighbours make
 /// of them: the phase of their paths at equal angles, or waves relative to their largest. Infinite
@@ -36,30 +34,37 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
     let (mut paths, mut waves, mut size) = (0.0f64, 0.0f64, 0.0f64);
     for j in 0..=last {
         for (i, knot) in planes[j][s].knots.iter().enumerate() {
-            let mut expected = [0.0; EVEN.end];
+            let mut expected = Knot::default();
             for (k, weight) in WEIGHTS.iter().enumerate() {
                 for neighbour in around(j, k + 1) {
                     add(&mut expected, *weight, &planes[neighbour][s].knots[i]);
                 }
             }
-            let path = knot[1] + knot[2] * (expected[0] - knot[0]);
-            paths = paths.max((expected[1] - path).abs());
-            waves = EVEN.map(|c| (expected[c] - knot[c]).abs()).fold(waves, f64::max);
-            size = EVEN.map(|c| knot[c].abs()).fold(size, f64::max);
+            let (knot, expected) = (knot.single(), expected.single());
+            let path = knot.path + knot.path_slope * (expected.angle - knot.angle);
+            paths = paths.max((expected.path - path).abs());
+            // S1 and S2, which are even in azimuth
+            for (found, expected) in knot.amplitudes[..2].iter().zip(&expected.amplitudes) {
+                let off = expected - found;
+                waves = waves.max(off.re.abs()).max(off.im.abs());
+                size = size.max(found.re.abs()).max(found.im.abs());
+            }
         }
     }
     let wave = planes[0][s].kind == Kind::Wave;
     (size_parameter * paths).max(if wave { waves / size } else { 0.0 })
 }
 
-fn add(sum: &mut [f64; EVEN.end], weight: f64, knot: &Knot) {
-    sum.iter_mut().zip(knot).for_each(|(sum, value)| *sum += weight * value);
+fn add(sum: &mut Knot, weight: f64, knot: &Knot) {
+    for c in 0..CHANNELS {
+        sum.channels_mut()[c] += weight * knot.channels()[c];
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::farfield::branch::knots::CHANNELS;
+    use crate::farfield::branch::knots::SingleKnot;
     use std::f64::consts::PI;
 
     const X: f64 = 1000.0;
@@ -69,10 +74,9 @@ mod tests {
         let plane = |j: usize| {
             let [path, amplitude] = f(PI * j as f64 / 24.0);
             let knot = |angle: f64| {
-                let mut knot = [0.0; CHANNELS];
-                (knot[0], knot[1], knot[2]) = (angle, path, -0.4);
-                knot[PLAIN_AMPLITUDE] = amplitude;
-                knot
+                let mut knot = SingleKnot { angle, path, path_slope: -0.4, ..Default::default() };
+                knot.amplitudes[0].re = amplitude;
+                Knot::from(knot)
             };
             vec![Segment { kind, knots: vec![knot(1.0), knot(1.2)] }]
         };
@@ -93,14 +97,16 @@ mod tests {
     fn a_plane_that_jumps_is_seen() {
         for j in [0, 7, 24] {
             let mut rough = planes(PLAIN, |phi| [1.0 + 0.1 * phi.cos(), 1.0]);
-            rough[j][0].knots[1][1] += 1e-3;
+            let knot = &mut rough[j][0].knots[1];
+            *knot = SingleKnot { path: knot.single().path + 1e-3, ..knot.single() }.into();
             let found = azimuthal_smoothness(&rough, X);
             assert!((0.9..=1.1).contains(&found), "{j}: {found}");
         }
         // angles that move with their paths along the ray's own slope are no fault
         let mut moved = planes(PLAIN, |_| [1.0, 1.0]);
         let knot = &mut moved[9][0].knots[0];
-        (knot[0], knot[1]) = (knot[0] + 1e-3, knot[1] - 0.4e-3);
+        let SingleKnot { angle, path, .. } = knot.single();
+        *knot = SingleKnot { angle: angle + 1e-3, path: path - 0.4e-3, ..knot.single() }.into();
         assert!(azimuthal_smoothness(&moved, X) < 1e-3 * X * 1e-3);
     }
 

@@ -262,8 +262,7 @@ fn fill_missing(mut planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment
             return None;
         }
         let between = |(a, b): (&Segment, &Segment)| {
-            let knot =
-                |(a, b): (&Knot, &Knot)| std::array::from_fn(|c| a[c] + share * (b[c] - a[c]));
+            let knot = |(a, b): (&Knot, &Knot)| a.towards(b, share);
             Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
         };
         planes[k] = Some(a.iter().zip(b).map(between).collect());
@@ -280,7 +279,9 @@ mod tests {
     const PLAIN: Kind = Kind::Plain { focal_lines: 2, from_axis: true };
 
     fn plane(value: f64) -> Option<Vec<Segment>> {
-        Some(vec![Segment { kind: PLAIN, knots: vec![[value; CHANNELS]; 2] }])
+        let mut knot = Knot::default();
+        *knot.channels_mut() = [value; CHANNELS];
+        Some(vec![Segment { kind: PLAIN, knots: vec![knot; 2] }])
     }
 
     /// Some missing planes are filled from their neighbours, as many as one in ten.
@@ -293,7 +294,10 @@ mod tests {
         for missing in [vec![], vec![7], vec![7, 8], vec![3, 15]] {
             let filled = planes(&missing).unwrap();
             for (k, plane) in filled.iter().enumerate() {
-                assert!((plane[0].knots[1][5] - k as f64).abs() < 1e-14, "{missing:?} {k}");
+                assert!(
+                    (plane[0].knots[1].channels()[5] - k as f64).abs() < 1e-14,
+                    "{missing:?} {k}"
+                );
             }
         }
         // too many, or none on one side

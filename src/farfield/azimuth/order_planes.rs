@@ -5,9 +5,7 @@ use super::cut_layout::CutLayout;
 use super::matching::{Traced, trace};
 use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
 use crate::farfield::branch::accumulate::Side;
-use crate::farfield::branch::knots::{
-    CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment,
-};
+use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
@@ -197,7 +195,7 @@ impl OrderPlanes {
     /// Whether the order has an axis gap about θ = 0 or π.
     pub(crate) fn crosses(&self, axis: f64) -> bool {
         let near = |knot: &Knot| {
-            let theta = (knot[0].rem_euclid(2.0 * PI) - axis).abs();
+            let theta = (knot.angle().rem_euclid(2.0 * PI) - axis).abs();
             let theta = theta.min(2.0 * PI - theta);
             (theta - self.axis_gap).abs() < 1e-6
         };
@@ -230,7 +228,7 @@ impl OrderPlanes {
     /// A segment between the traced azimuths, by a polynomial through eight of them.
     fn interpolated(&self, number: usize, azimuth: f64) -> Segment {
         let template = &self.planes[0][number];
-        let parity = parity(&template.kind);
+        let parity = template.kind.parity();
         let mut weights = [[0.0; CHANNELS]; STENCIL];
         let mut sources: [&[Knot]; STENCIL] = [&[]; STENCIL];
         for (k, share) in shares::<STENCIL>(azimuth, self.planes.len()).iter().enumerate() {
@@ -239,7 +237,7 @@ impl OrderPlanes {
             weights[k] =
                 if share.mirrored { parity.map(|p| p * weight) } else { [weight; CHANNELS] };
         }
-        let mut knots = vec![[0.0; CHANNELS]; template.knots.len()];
+        let mut knots = vec![Knot::default(); template.knots.len()];
         blend(&mut knots, &sources, &weights);
         Segment { kind: template.kind, knots }
     }
@@ -289,19 +287,22 @@ fn spans(planes: &[Vec<Segment>]) -> Vec<(f64, f64)> {
     let span = |s: usize| {
         let ends =
             planes.iter().flat_map(|m| m[s].knots.first().into_iter().chain(m[s].knots.last()));
-        let angles = ends.map(|knot| knot[0]);
+        let angles = ends.map(Knot::angle);
         angles.fold((f64::MAX, f64::MIN), |(l, h), a| (l.min(a - ROOM), h.max(a + ROOM)))
     };
     (0..count).map(span).collect()
 }
 
-/// Weighted sums of knots, channel by channel.
+/// A weight for each number of a knot.
+type Weights = [f64; CHANNELS];
+
+/// Weighted sums of knots, number by number.
 #[multiversion(targets(
     "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
     "x86_64+avx2+fma",
     "aarch64+neon"
 ))]
-fn blend(knots: &mut [Knot], sources: &[&[Knot]; STENCIL], weights: &[Knot; STENCIL]) {
+fn blend(knots: &mut [Knot], sources: &[&[Knot]; STENCIL], weights: &[Weights; STENCIL]) {
     if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
         blend_with::<true>(knots, sources, weights);
     } else {
@@ -313,7 +314,7 @@ fn blend(knots: &mut [Knot], sources: &[&[Knot]; STENCIL], weights: &[Knot; STEN
 fn blend_with<const FMA: bool>(
     knots: &mut [Knot],
     sources: &[&[Knot]; STENCIL],
-    weights: &[Knot; STENCIL],
+    weights: &[Weights; STENCIL],
 ) {
     let count = sources.iter().map(|s| s.len()).fold(knots.len(), usize::min);
     let sources = sources.map(|s| &s[..count]);
@@ -321,10 +322,10 @@ fn blend_with<const FMA: bool>(
         let mut sum = [0.0; CHANNELS];
         for (source, weights) in sources.iter().zip(weights) {
             for c in 0..CHANNELS {
-                sum[c] = multiply_add::<FMA>(weights[c], source[i][c], sum[c]);
+                sum[c] = multiply_add::<FMA>(weights[c], source[i].channels()[c], sum[c]);
             }
         }
-        *knot = sum;
+        *knot.channels_mut() = sum;
     }
 }
 
@@ -348,24 +349,6 @@ fn rim_layout(
         rotational,
     )?;
     Some(NearGrazingLayout::new(marks, rotational))
-}
-
-/// Sign of each channel in the mirror: S3 and S4 change theirs.
-fn parity(kind: &Kind) -> Knot {
-    let odd: &[usize] = match kind {
-        Kind::Plain { .. } | Kind::Wave => &[PLAIN_AMPLITUDE + 4, SLOPE + 4],
-        Kind::Pair { .. } => &[PAIR_AMPLITUDE + 4, PAIR_AMPLITUDE + 12],
-    };
-    std::array::from_fn(|c| if odd.iter().any(|&o| (o..o + 4).contains(&c)) { -1.0 } else { 1.0 })
-}
-
-pub(crate) fn mirror(segment: &mut Segment) {
-    let parity = parity(&segment.kind);
-    for knot in &mut segment.knots {
-        for (value, sign) in knot.iter_mut().zip(parity) {
-            *value *= sign;
-        }
-    }
 }
 
 /// The azimuths of all planes that the asked ones need: each column its own and that of the

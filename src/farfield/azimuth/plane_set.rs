@@ -7,7 +7,7 @@
 //! coalesce somewhere: cusps, umbilics) are told by [`PlaneSet::outcomes`].
 
 use super::matching::another;
-use super::order_planes::{Azimuths, OrderPlanes, mirror};
+use super::order_planes::{Azimuths, OrderPlanes};
 use crate::farfield::assignment::{PlanesOutcome, Thresholds};
 use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
 use crate::farfield::branch::knots::{Kind, Segment};
@@ -15,6 +15,7 @@ use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::settings::FarFieldSettings;
+use crate::farfield::wave_field::WaveField;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use rayon::prelude::*;
@@ -150,7 +151,7 @@ impl PlaneSet {
                 for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| far) {
                     // the plane of φ + π is the mirror image of that of π - φ
                     let mut segment = planes.segment(number, PI - azimuth).into_owned();
-                    mirror(&mut segment);
+                    segment.mirror();
                     add_segment(sums, &samples, &segment, Side::Far, x);
                 }
             }
@@ -211,5 +212,18 @@ impl PlaneSet {
         let (forward, backward) = (gap(0.0), gap(PI));
         let marked = |t: f64| t < forward || PI - t < backward;
         theta.iter().map(|&t| if marked(t) { 3 } else { 0 }).collect()
+    }
+}
+
+impl WaveField for PlaneSet {
+    fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
+        let column = self.columns(theta, &[phi]).swap_remove(0);
+        sums.iter_mut().zip(column).for_each(|(sum, wave)| *sum += wave);
+    }
+
+    fn add_columns(&self, theta: &[f64], azimuths: &[f64], columns: &mut [Vec<AmplitudeMatrix>]) {
+        for (column, found) in columns.iter_mut().zip(self.columns(theta, azimuths)) {
+            column.iter_mut().zip(found).for_each(|(sum, wave)| *sum += wave);
+        }
     }
 }

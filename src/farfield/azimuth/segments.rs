@@ -1,12 +1,10 @@
 //! The segments of a curve: data at their knots.
 
 use super::cut_layout::CutLayout;
-use crate::farfield::branch::knots::{
-    CHANNELS, Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes,
-};
+use crate::farfield::branch::knots::{Kind, Knot, PairKnot, Segment, SingleKnot, parabola_slopes};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
-use crate::farfield::deflection::fold::{Fold, PAIR_CHANNELS};
+use crate::farfield::deflection::fold::{Fold, PAIR_CHANNELS, PairValues};
 use crate::farfield::deflection::landmark::Landmark;
 use crate::farfield::deflection::scan::Edge;
 use crate::farfield::deflection::scattering_plane::Node;
@@ -133,7 +131,7 @@ impl DeflectionCurve<'_> {
         }
         let slopes = parabola_slopes(&knots);
         for (knot, slope) in knots.iter_mut().zip(slopes) {
-            knot[SLOPE..SLOPE + 8].copy_from_slice(&slope[PLAIN_AMPLITUDE..PLAIN_AMPLITUDE + 8]);
+            *knot = SingleKnot { rates: slope.single().amplitudes, ..knot.single() }.into();
         }
         let from_axis = matches!(start, Landmark::Axial);
         Some(Segment { kind: Kind::Plain { focal_lines, from_axis }, knots })
@@ -162,16 +160,16 @@ impl DeflectionCurve<'_> {
         // that focus at infinity, as about the axis for indices of 2 and 4.
         let spread = self.bounded_spread(node, layout).max(4.0 / layout.size_parameter.powi(2));
         let size = share / spread.sqrt();
-        let mut knot = [0.0; CHANNELS];
-        knot[0] = node.angle;
-        knot[1] = node.exit.path;
-        knot[2] = -node.exit.reference.dot(growing);
-        for (k, s) in [transfer.s1, transfer.s2, transfer.s3, transfer.s4].into_iter().enumerate() {
-            let amplitude = s * size;
-            knot[PLAIN_AMPLITUDE + 2 * k] = amplitude.re;
-            knot[PLAIN_AMPLITUDE + 2 * k + 1] = amplitude.im;
-        }
-        knot
+        let elements = [transfer.s1, transfer.s2, transfer.s3, transfer.s4];
+        let knot = SingleKnot {
+            angle: node.angle,
+            path: node.exit.path,
+            path_slope: -node.exit.reference.dot(growing),
+            amplitudes: elements.map(|s| s * size),
+            // from the neighbours, once all are known
+            rates: Default::default(),
+        };
+        knot.into()
     }
 }
 
@@ -203,15 +201,17 @@ fn graded(share: f64, closer: [bool; 2]) -> f64 {
 
 fn pair_knot(fold: &Fold, series: &Chebyshev<PAIR_CHANNELS>, delta: f64) -> Knot {
     let (value, slope) = series.at(delta);
-    let mut knot = [0.0; CHANNELS];
-    knot[0] = fold.angle + fold.lit * delta;
-    knot[1] = value[0];
-    knot[2] = fold.lit * slope[0];
-    knot[3] = value[1];
-    knot[4] = fold.lit * slope[1];
-    let amplitudes = &value[2..];
-    knot[PAIR_AMPLITUDE..PAIR_AMPLITUDE + amplitudes.len()].copy_from_slice(amplitudes);
-    knot
+    let (value, slope) = (PairValues::from(value), PairValues::from(slope));
+    let knot = PairKnot {
+        angle: fold.angle + fold.lit * delta,
+        path: value.path,
+        path_slope: fold.lit * slope.path,
+        zeta: value.zeta,
+        zeta_slope: fold.lit * slope.zeta,
+        sums: value.sums,
+        differences: value.differences,
+    };
+    knot.into()
 }
 
 #[cfg(test)]

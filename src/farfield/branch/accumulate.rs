@@ -5,7 +5,7 @@
 //! part in a row of its own; the loops are plain arithmetic over arrays, compiled for several
 //! instruction sets and chosen at run time.
 
-use super::knots::{Kind, Knot, PAIR_AMPLITUDE, PLAIN_AMPLITUDE, SLOPE, Segment, parabola_slopes};
+use super::knots::{Kind, Knot, Segment, parabola_slopes};
 use crate::math::airy;
 use crate::math::fused::multiply_add;
 use crate::math::phase::sin_cos_turns_with;
@@ -82,7 +82,7 @@ pub fn add_segment(
     size_parameter: f64,
 ) {
     let (first, last) = match (segment.knots.first(), segment.knots.last()) {
-        (Some(a), Some(b)) => (a[0], b[0]),
+        (Some(a), Some(b)) => (a.angle(), b.angle()),
         _ => return,
     };
     let (low, high) = (first.min(last), first.max(last));
@@ -115,12 +115,12 @@ fn sweep(
     let knots = &segment.knots;
     let pieces = knots.len() - 1;
     // θ grows with the unwrapped angle on the near side
-    let forward = (knots[pieces][0] - knots[0][0]) * sign > 0.0;
+    let forward = (knots[pieces].angle() - knots[0].angle()) * sign > 0.0;
     let mut slopes: Option<Vec<Knot>> = None;
     let mut at = usize::MAX;
     for step in 0..pieces {
         let k = if forward { step } else { pieces - 1 - step };
-        let (a, b) = (sign * (knots[k][0] - turn), sign * (knots[k + 1][0] - turn));
+        let (a, b) = (sign * (knots[k].angle() - turn), sign * (knots[k + 1].angle() - turn));
         let (low, high) = (a.min(b), a.max(b));
         if high < -AXIAL || low > PI + AXIAL {
             continue;
@@ -225,6 +225,20 @@ fn hermite(v0: f64, s0: f64, v1: f64, s1: f64) -> [f64; 4] {
     [v0, s0, 3.0 * d - 2.0 * s0 - s1, s0 + s1 - 2.0 * d]
 }
 
+/// Cubics of real and imaginary parts, from values and slopes at both ends, `h` apart.
+#[inline(always)]
+fn cubics_between(
+    cubics: &mut [[f64; 4]; 8],
+    [a, a_rate]: [&[Complex64; 4]; 2],
+    [b, b_rate]: [&[Complex64; 4]; 2],
+    h: f64,
+) {
+    for e in 0..4 {
+        cubics[2 * e] = hermite(a[e].re, a_rate[e].re * h, b[e].re, b_rate[e].re * h);
+        cubics[2 * e + 1] = hermite(a[e].im, a_rate[e].im * h, b[e].im, b_rate[e].im * h);
+    }
+}
+
 #[inline(always)]
 fn cubic<const FMA: bool>(c: &[f64; 4], t: f64) -> f64 {
     multiply_add::<FMA>(t, multiply_add::<FMA>(t, multiply_add::<FMA>(t, c[3], c[2]), c[1]), c[0])
@@ -289,15 +303,13 @@ fn single<const FMA: bool>(
     x: f64,
     turns: f64,
 ) {
-    let h = b[0] - a[0];
-    let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
+    let (a, b) = (a.single(), b.single());
+    let h = b.angle - a.angle;
+    let path = hermite(a.path, a.path_slope * h, b.path, b.path_slope * h);
     let mut cubics = [[0.0; 4]; 8];
-    for (c, cubic) in cubics.iter_mut().enumerate() {
-        let (value, slope) = (PLAIN_AMPLITUDE + c, SLOPE + c);
-        *cubic = hermite(a[value], a[slope] * h, b[value], b[slope] * h);
-    }
+    cubics_between(&mut cubics, [&a.amplitudes, &a.rates], [&b.amplitudes, &b.rates], h);
     for start in (piece.begin..piece.end).step_by(LANES) {
-        let t = piece.places(start, a[0], 1.0 / h);
+        let t = piece.places(start, a.angle, 1.0 / h);
         let scale = piece.inside(start, x);
         let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &scale);
         for e in 0..4 {
@@ -321,16 +333,18 @@ fn pair<const FMA: bool>(
     let sixth = x.powf(1.0 / 6.0);
     let two_thirds = sixth.powi(4);
     let (scale0, scale1) = (x * PI.sqrt() * sixth, x * PI.sqrt() / sixth);
-    let h = b[0] - a[0];
-    let path = hermite(a[1], a[2] * h, b[1], b[2] * h);
-    let zeta = hermite(a[3], a[4] * h, b[3], b[4] * h);
-    let mut cubics = [[0.0; 4]; 16];
-    for (c, cubic) in cubics.iter_mut().enumerate() {
-        let i = PAIR_AMPLITUDE + c;
-        *cubic = hermite(a[i], slopes[0][i] * h, b[i], slopes[1][i] * h);
-    }
+    let (a, b) = (a.pair(), b.pair());
+    let (rise, fall) = (slopes[0].pair(), slopes[1].pair());
+    let h = b.angle - a.angle;
+    let path = hermite(a.path, a.path_slope * h, b.path, b.path_slope * h);
+    let zeta = hermite(a.zeta, a.zeta_slope * h, b.zeta, b.zeta_slope * h);
+    let mut cubics = [[[0.0; 4]; 8]; 2];
+    cubics_between(&mut cubics[0], [&a.sums, &rise.sums], [&b.sums, &fall.sums], h);
+    let ends = [[&a.differences, &rise.differences], [&b.differences, &fall.differences]];
+    cubics_between(&mut cubics[1], ends[0], ends[1], h);
+    let [sums, differences] = cubics;
     for start in (piece.begin..piece.end).step_by(LANES) {
-        let t = piece.places(start, a[0], 1.0 / h);
+        let t = piece.places(start, a.angle, 1.0 / h);
         let (sin, cos) = waves::<FMA>(&path, &t, x / TAU, turns, &piece.inside(start, 1.0));
         let (mut w0, mut w1) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES.min(piece.end - start) {
@@ -340,9 +354,9 @@ fn pair<const FMA: bool>(
         for e in 0..4 {
             // w0 g₀ + i w1 g₁
             let (r, i) = (2 * e, 2 * e + 1);
-            let (a, b) = (cubics_at::<FMA>(&cubics[r], &t), cubics_at::<FMA>(&cubics[i], &t));
-            let c = cubics_at::<FMA>(&cubics[8 + i], &t);
-            let d = cubics_at::<FMA>(&cubics[8 + r], &t);
+            let (a, b) = (cubics_at::<FMA>(&sums[r], &t), cubics_at::<FMA>(&sums[i], &t));
+            let c = cubics_at::<FMA>(&differences[i], &t);
+            let d = cubics_at::<FMA>(&differences[r], &t);
             let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
             for k in 0..LANES {
                 re[k] = w0[k] * a[k] - w1[k] * c[k];
@@ -356,6 +370,7 @@ fn pair<const FMA: bool>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::farfield::branch::knots::{PairKnot, SingleKnot};
 
     const X: f64 = 300.0;
 
@@ -382,13 +397,14 @@ mod tests {
 
     fn cubic_segment(kind: Kind, angles: &[f64]) -> Segment {
         let knot = |&t: &f64| {
-            let mut knot = [0.0; crate::farfield::branch::knots::CHANNELS];
-            knot[0] = t;
-            [knot[1], knot[2]] = path(t);
-            for c in 0..8 {
-                [knot[PLAIN_AMPLITUDE + c], knot[SLOPE + c]] = channel(c, t);
+            let [path, path_slope] = path(t);
+            let mut knot = SingleKnot { angle: t, path, path_slope, ..SingleKnot::default() };
+            for e in 0..4 {
+                let [[re, re_rate], [im, im_rate]] = [channel(2 * e, t), channel(2 * e + 1, t)];
+                knot.amplitudes[e] = Complex64::new(re, im);
+                knot.rates[e] = Complex64::new(re_rate, im_rate);
             }
-            knot
+            Knot::from(knot)
         };
         Segment { kind, knots: angles.iter().map(knot).collect() }
     }
@@ -443,11 +459,9 @@ mod tests {
             let kind = Kind::Plain { focal_lines: 0, from_axis: true };
             let mut segment = cubic_segment(kind, &angles);
             for knot in &mut segment.knots {
-                *knot = std::array::from_fn(|c| match c {
-                    0 => knot[0],
-                    PLAIN_AMPLITUDE => 1.0,
-                    _ => 0.0,
-                });
+                let mut one = SingleKnot { angle: knot.angle(), ..SingleKnot::default() };
+                one.amplitudes[0].re = 1.0;
+                *knot = one.into();
             }
             let theta = if backward { vec![2.5, 2.8, 3.0, PI] } else { vec![0.0, 0.1, 0.4, 0.65] };
             let samples = Samples::new(&theta);
@@ -456,8 +470,11 @@ mod tests {
                 // the far side of a segment that turns the other way about the axis
                 let mut segment = segment.clone();
                 if side == Side::Far {
-                    let axis = segment.knots[0][0];
-                    segment.knots.iter_mut().for_each(|knot| knot[0] = 2.0 * axis - knot[0]);
+                    let axis = segment.knots[0].angle();
+                    for knot in &mut segment.knots {
+                        let angle = 2.0 * axis - knot.angle();
+                        *knot = SingleKnot { angle, ..knot.single() }.into();
+                    }
                 }
                 add_segment(&mut sums, &samples, &segment, side, X);
                 for (s, theta) in sums.amplitudes().iter().zip(&theta) {
@@ -476,17 +493,18 @@ mod tests {
         let (longer, shorter) = (Complex64::new(0.8, 0.1), Complex64::new(-0.3, 0.5));
         let (mean, first) = (1.7, 0.6);
         let knot = |zeta: f64| {
-            let mut knot = [0.0; crate::farfield::branch::knots::CHANNELS];
-            (knot[0], knot[1], knot[3], knot[4]) = (first + zeta, mean, zeta, 1.0);
             // analytic where both amplitudes are constant only away from the fold: lit knots alone
             let root = zeta.abs().powf(0.25);
             let (g0, g1) = ((longer + shorter) * root, (longer - shorter) / root);
-            for e in 0..4 {
-                (knot[PAIR_AMPLITUDE + 2 * e], knot[PAIR_AMPLITUDE + 2 * e + 1]) = (g0.re, g0.im);
-                (knot[PAIR_AMPLITUDE + 8 + 2 * e], knot[PAIR_AMPLITUDE + 9 + 2 * e]) =
-                    (g1.re, g1.im);
-            }
-            knot
+            Knot::from(PairKnot {
+                angle: first + zeta,
+                path: mean,
+                path_slope: 0.0,
+                zeta,
+                zeta_slope: 1.0,
+                sums: [g0; 4],
+                differences: [g1; 4],
+            })
         };
         let kind = Kind::Pair { focal_lines: 5 };
         let lit =

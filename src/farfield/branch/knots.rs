@@ -1,21 +1,145 @@
 //! A segment: a stretch of a plane's far field as knots, between which path and amplitudes are
 //! cubics in the exit angle. What a knot holds depends on the kind of segment.
+//!
+//! Knots of neighbouring planes are mixed number by number, so that all kinds are stored as one array,
+//! as wide as whole vector registers. Its places have names here, [`SingleKnot`] and [`PairKnot`], and
+//! nobody else counts them.
+//!
+//! ```
+//! use gonio::farfield::branch::knots::{Knot, SingleKnot};
+//! let single = SingleKnot { angle: 2.4, path: 3.0, ..SingleKnot::default() };
+//! assert_eq!(Knot::from(single).angle(), 2.4);
+//! assert_eq!(Knot::from(single).single(), single);
+//! ```
 
-/// Numbers at a knot: angle, then
-/// plain: path, its slope by angle, S1 … S4 (re, im) as `T/√|spread|`, their slopes;
-/// pair: mean path, its slope, ζ̂, its slope, g₀ (re, im by element), g₁ (re, im by element);
-/// wave: reference path, its slope, S1 … S4 against it, their slopes by angle.
-/// 21 at most are in use; with 24 a knot fills whole vector registers.
+use num_complex::Complex64;
+
+/// Places of a knot; 21 at most are in use.
 pub const CHANNELS: usize = 24;
-/// First channel of amplitudes in a plain knot (S3 and S4 follow at +4).
-pub const PLAIN_AMPLITUDE: usize = 3;
-/// First channel of the slopes of amplitudes by angle in a plain knot and in that of a wave.
-pub const SLOPE: usize = 11;
-/// First channel of g₀ in a pair knot; g₁ follows at +8.
-pub const PAIR_AMPLITUDE: usize = 5;
+/// Places of [`SingleKnot`]: angle, path, slope, then S1 … S4 (re, im) and their slopes.
+const SINGLE: usize = 3;
+const SINGLE_RATES: usize = SINGLE + ELEMENTS;
+/// Places of [`PairKnot`]: angle, path, slope, ζ̂, its slope, then g₀ and g₁ (re, im by element).
+const PAIR: usize = 5;
+const PAIR_SECOND: usize = PAIR + ELEMENTS;
+/// Real and imaginary parts of S1 … S4.
+const ELEMENTS: usize = 8;
 
 /// Data at one knot.
-pub type Knot = [f64; CHANNELS];
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Knot([f64; CHANNELS]);
+
+/// One wave: that of a ray, `T/√|spread|`, or any wave against a reference path.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SingleKnot {
+    pub angle: f64,
+    /// Path, and its slope by angle.
+    pub path: f64,
+    pub path_slope: f64,
+    /// S1 … S4, and their slopes by angle.
+    pub amplitudes: [Complex64; 4],
+    pub rates: [Complex64; 4],
+}
+
+/// Two rays about a fold.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PairKnot {
+    pub angle: f64,
+    /// Mean path, and its slope by angle.
+    pub path: f64,
+    pub path_slope: f64,
+    pub zeta: f64,
+    pub zeta_slope: f64,
+    /// `g₀` and `g₁` of S1 … S4.
+    pub sums: [Complex64; 4],
+    pub differences: [Complex64; 4],
+}
+
+impl From<SingleKnot> for Knot {
+    fn from(knot: SingleKnot) -> Self {
+        let mut channels = [0.0; CHANNELS];
+        channels[..SINGLE].copy_from_slice(&[knot.angle, knot.path, knot.path_slope]);
+        put(&mut channels, SINGLE, &knot.amplitudes);
+        put(&mut channels, SINGLE_RATES, &knot.rates);
+        Self(channels)
+    }
+}
+
+impl From<PairKnot> for Knot {
+    fn from(knot: PairKnot) -> Self {
+        let PairKnot { angle, path, path_slope, zeta, zeta_slope, sums, differences } = knot;
+        let mut channels = [0.0; CHANNELS];
+        channels[..PAIR].copy_from_slice(&[angle, path, path_slope, zeta, zeta_slope]);
+        put(&mut channels, PAIR, &sums);
+        put(&mut channels, PAIR_SECOND, &differences);
+        Self(channels)
+    }
+}
+
+fn put(channels: &mut [f64; CHANNELS], first: usize, elements: &[Complex64; 4]) {
+    for (place, element) in channels[first..].chunks_exact_mut(2).zip(elements) {
+        place.copy_from_slice(&[element.re, element.im]);
+    }
+}
+
+impl Knot {
+    /// Exit angle: that of every kind.
+    #[inline(always)]
+    pub fn angle(&self) -> f64 {
+        self.0[0]
+    }
+
+    /// Of a segment with one wave.
+    #[inline(always)]
+    pub fn single(&self) -> SingleKnot {
+        SingleKnot {
+            angle: self.0[0],
+            path: self.0[1],
+            path_slope: self.0[2],
+            amplitudes: self.elements(SINGLE),
+            rates: self.elements(SINGLE_RATES),
+        }
+    }
+
+    /// Of a segment with two rays.
+    #[inline(always)]
+    pub fn pair(&self) -> PairKnot {
+        PairKnot {
+            angle: self.0[0],
+            path: self.0[1],
+            path_slope: self.0[2],
+            zeta: self.0[3],
+            zeta_slope: self.0[4],
+            sums: self.elements(PAIR),
+            differences: self.elements(PAIR_SECOND),
+        }
+    }
+
+    #[inline(always)]
+    fn elements(&self, first: usize) -> [Complex64; 4] {
+        let at = |e: usize| Complex64::new(self.0[first + 2 * e], self.0[first + 2 * e + 1]);
+        [at(0), at(1), at(2), at(3)]
+    }
+
+    /// All numbers, for what treats them alike.
+    pub fn channels(&self) -> &[f64; CHANNELS] {
+        &self.0
+    }
+
+    pub fn channels_mut(&mut self) -> &mut [f64; CHANNELS] {
+        &mut self.0
+    }
+
+    pub fn is_finite(&self) -> bool {
+        self.0.iter().all(|value| value.is_finite())
+    }
+
+    /// The knot a share of the way from this one to another.
+    #[must_use]
+    pub fn towards(&self, other: &Self, share: f64) -> Self {
+        Self(std::array::from_fn(|c| self.0[c] + share * (other.0[c] - self.0[c])))
+    }
+}
 
 /// What a segment holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +160,18 @@ pub enum Kind {
     Wave,
 }
 
+impl Kind {
+    /// Sign of each number of a knot in the mirror: S3 and S4 change theirs.
+    pub(crate) fn parity(self) -> [f64; CHANNELS] {
+        let groups = match self {
+            Kind::Plain { .. } | Kind::Wave => [SINGLE, SINGLE_RATES],
+            Kind::Pair { .. } => [PAIR, PAIR_SECOND],
+        };
+        let odd = |c: usize| groups.iter().any(|g| (g + ELEMENTS / 2..g + ELEMENTS).contains(&c));
+        std::array::from_fn(|c| if odd(c) { -1.0 } else { 1.0 })
+    }
+}
+
 /// A stretch of a curve.
 #[derive(Clone, Debug)]
 pub struct Segment {
@@ -45,18 +181,29 @@ pub struct Segment {
     pub knots: Vec<Knot>,
 }
 
-/// Slopes of all channels at all knots by angle, from parabolas through neighbours.
+impl Segment {
+    /// Its image in the mirror plane.
+    pub(crate) fn mirror(&mut self) {
+        let parity = self.kind.parity();
+        for knot in &mut self.knots {
+            knot.0.iter_mut().zip(parity).for_each(|(value, sign)| *value *= sign);
+        }
+    }
+}
+
+/// Slopes of all numbers at all knots by angle, from parabolas through neighbours.
 pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
     let last = knots.len() - 1;
     if last < 2 {
-        let h = 1.0 / (knots[last][0] - knots[0][0]);
-        return vec![std::array::from_fn(|c| (knots[last][c] - knots[0][c]) * h); last + 1];
+        let (from, to) = (&knots[0].0, &knots[last].0);
+        let h = 1.0 / (to[0] - from[0]);
+        return vec![Knot(std::array::from_fn(|c| (to[c] - from[c]) * h)); last + 1];
     }
     (0..=last)
         .map(|k| {
             let j = k.clamp(1, last - 1);
-            let [a, b, c] = [&knots[j - 1], &knots[j], &knots[j + 1]];
-            let x = knots[k][0];
+            let [a, b, c] = [&knots[j - 1].0, &knots[j].0, &knots[j + 1].0];
+            let x = knots[k].angle();
             let (ab, ac, bc) = (a[0] - b[0], a[0] - c[0], b[0] - c[0]);
             let weights = [
                 (2.0 * x - b[0] - c[0]) / (ab * ac),
@@ -67,7 +214,7 @@ pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
             for i in 0..CHANNELS {
                 slope[i] = weights[0] * a[i] + weights[1] * b[i] + weights[2] * c[i];
             }
-            slope
+            Knot(slope)
         })
         .collect()
 }
@@ -76,8 +223,50 @@ pub fn parabola_slopes(knots: &[Knot]) -> Vec<Knot> {
 mod tests {
     use super::*;
 
-    fn knot(angle: f64, value: f64) -> Knot {
-        std::array::from_fn(|c| if c == 0 { angle } else { value * c as f64 })
+    fn elements(from: f64) -> [Complex64; 4] {
+        std::array::from_fn(|k| Complex64::new(from + k as f64, -from - k as f64))
+    }
+
+    fn single(angle: f64) -> SingleKnot {
+        let (amplitudes, rates) = (elements(angle), elements(2.0 * angle));
+        SingleKnot { angle, path: 1.0 + angle * angle, path_slope: 2.0 * angle, amplitudes, rates }
+    }
+
+    #[test]
+    fn what_goes_in_comes_out() {
+        assert_eq!(Knot::from(single(0.5)).single(), single(0.5));
+        let (sums, differences) = (elements(3.0), elements(7.0));
+        let pair = PairKnot {
+            angle: 1.0,
+            path: 2.0,
+            path_slope: 3.0,
+            zeta: 4.0,
+            zeta_slope: 5.0,
+            sums,
+            differences,
+        };
+        assert_eq!(Knot::from(pair).pair(), pair);
+    }
+
+    #[test]
+    fn the_mirror_turns_cross_polarised_elements_alone() {
+        let knots = vec![Knot::from(single(0.5))];
+        let mut segment = Segment { kind: Kind::Wave, knots };
+        segment.mirror();
+        let [mirrored, before] = [segment.knots[0].single(), single(0.5)];
+        assert_eq!((mirrored.path, mirrored.path_slope), (before.path, before.path_slope));
+        for (mirrored, before) in
+            [(mirrored.amplitudes, before.amplitudes), (mirrored.rates, before.rates)]
+        {
+            assert_eq!(mirrored[..2], before[..2]);
+            assert_eq!(mirrored[2..], [-before[2], -before[3]]);
+        }
+        segment.mirror();
+        assert_eq!(segment.knots[0].single(), before);
+    }
+
+    fn of_all(angle: f64, value: f64) -> Knot {
+        Knot(std::array::from_fn(|c| if c == 0 { angle } else { value * c as f64 }))
     }
 
     /// Uneven knots, both ends included; descending ones too.
@@ -85,13 +274,13 @@ mod tests {
     fn slopes_of_parabolas_are_exact() {
         let mut knots: Vec<Knot> = [0.2, 0.3, 0.7, 0.75, 1.6]
             .iter()
-            .map(|&t: &f64| knot(t, 1.0 - 2.0 * t + 3.0 * t * t))
+            .map(|&t: &f64| of_all(t, 1.0 - 2.0 * t + 3.0 * t * t))
             .collect();
         for _ in 0..2 {
             for (knot, slope) in knots.iter().zip(parabola_slopes(&knots)) {
-                assert!((slope[0] - 1.0).abs() < 1e-12);
-                for (c, slope) in slope.iter().enumerate().skip(1) {
-                    let exact = c as f64 * (6.0 * knot[0] - 2.0);
+                assert!((slope.angle() - 1.0).abs() < 1e-12);
+                for (c, slope) in slope.0.iter().enumerate().skip(1) {
+                    let exact = c as f64 * (6.0 * knot.angle() - 2.0);
                     assert!((slope - exact).abs() < 1e-10, "{slope} {exact}");
                 }
             }
@@ -101,9 +290,16 @@ mod tests {
 
     #[test]
     fn two_knots_have_the_slope_of_their_line() {
-        let slopes = parabola_slopes(&[knot(0.5, 1.0), knot(1.0, 4.0)]);
-        assert!(
-            slopes.len() == 2 && slopes.iter().all(|slope| slope[1] == 6.0 && slope[2] == 12.0)
-        );
+        let slopes = parabola_slopes(&[of_all(0.5, 1.0), of_all(1.0, 4.0)]);
+        assert_eq!(slopes.len(), 2);
+        assert!(slopes.iter().all(|slope| slope.0[1] == 6.0 && slope.0[2] == 12.0));
+    }
+
+    #[test]
+    fn half_way_is_the_mean() {
+        let middle = Knot::from(single(0.0)).towards(&single(1.0).into(), 0.5).single();
+        assert_eq!(middle.angle, 0.5);
+        assert_eq!(middle.path, 1.5);
+        assert!(!Knot::from(single(f64::NAN)).is_finite());
     }
 }

@@ -16,8 +16,56 @@ use crate::shape::Silhouette;
 use crate::trace::Exit;
 use num_complex::Complex64;
 
-/// Channels of a pair: mean path, ζ̂, g₀ and g₁ (real and imaginary parts of S1 … S4).
+/// What is analytic in the two rays of a fold: mean path, ζ̂, `g₀` and `g₁` of S1 … S4.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairValues {
+    pub path: f64,
+    pub zeta: f64,
+    pub sums: [Complex64; 4],
+    pub differences: [Complex64; 4],
+}
+
+/// The same as numbers of a series: path, ζ̂, then `g₀` and `g₁` (re, im by element).
 pub const PAIR_CHANNELS: usize = 18;
+
+impl From<[f64; PAIR_CHANNELS]> for PairValues {
+    fn from(channels: [f64; PAIR_CHANNELS]) -> Self {
+        let [path, zeta, elements @ ..] = channels;
+        let at = |k: usize| Complex64::new(elements[2 * k], elements[2 * k + 1]);
+        let (sums, differences) = ([0, 1, 2, 3].map(at), [4, 5, 6, 7].map(at));
+        Self { path, zeta, sums, differences }
+    }
+}
+
+impl From<PairValues> for [f64; PAIR_CHANNELS] {
+    fn from(values: PairValues) -> Self {
+        let mut channels = [values.path, values.zeta]
+            .into_iter()
+            .chain(values.sums.into_iter().chain(values.differences).flat_map(|g| [g.re, g.im]));
+        std::array::from_fn(|_| channels.next().unwrap_or_default())
+    }
+}
+
+impl PairValues {
+    /// `|g|²` of all elements.
+    fn size(&self) -> f64 {
+        self.sums.iter().chain(&self.differences).map(Complex64::norm_sqr).sum()
+    }
+
+    /// Whether the roots of both are on the same sheet.
+    fn agrees_with(&self, other: &Self) -> bool {
+        let product = |(a, b): (&Complex64, &Complex64)| a.re * b.re + a.im * b.im;
+        let (sums, differences) =
+            (self.sums.iter().zip(&other.sums), self.differences.iter().zip(&other.differences));
+        sums.chain(differences).map(product).sum::<f64>() >= 0.0
+    }
+
+    /// On the other sheet of the roots.
+    fn negated(self) -> Self {
+        let negated = |g: [Complex64; 4]| g.map(|g| -g);
+        Self { sums: negated(self.sums), differences: negated(self.differences), ..self }
+    }
+}
 
 /// A fold on a plane.
 #[derive(Clone, Debug)]
@@ -153,30 +201,27 @@ impl Fold {
         count: usize,
     ) -> Option<Chebyshev<PAIR_CHANNELS>> {
         let deltas = chebyshev::points(count, -dark, reach);
-        let mut values = vec![[0.0; PAIR_CHANNELS]; count];
         let first_lit = deltas.partition_point(|&d| d <= 0.0);
         let mut path = RootPath::new(self.place, self.tangent);
-        for k in first_lit..count {
-            let q = deltas[k].sqrt();
-            values[k] = self.lit_values(plane, &mut path, deltas[k], q)?;
-        }
-        let size = |v: &[f64; PAIR_CHANNELS]| v[2..].iter().map(|g| g * g).sum::<f64>();
-        let largest = values[first_lit..].iter().map(size).fold(0.0, f64::max);
-        for k in (0..first_lit).rev() {
-            values[k] = self.dark_values(plane, &mut path, deltas[k])?;
+        let lit = deltas[first_lit..]
+            .iter()
+            .map(|&delta| self.lit_values(plane, &mut path, delta, delta.sqrt()))
+            .collect::<Option<Vec<PairValues>>>()?;
+        let largest = lit.iter().map(PairValues::size).fold(0.0, f64::max);
+        let mut behind: Vec<PairValues> = Vec::new();
+        for &delta in deltas[..first_lit].iter().rev() {
+            let next = self.dark_values(plane, &mut path, delta)?;
             // Far behind a caustic near the rim the curved interface has poles: not that far.
-            if !size(&values[k]).is_finite() || size(&values[k]) > RUNAWAY * largest {
+            if !next.size().is_finite() || next.size() > RUNAWAY * largest {
                 return None;
             }
             // Square roots of complex transfers may change sheet on the way: continuity decides.
-            if k + 1 < count {
-                let (known, next) = (values[k + 1], &mut values[k]);
-                let agreement: f64 = (2..PAIR_CHANNELS).map(|c| known[c] * next[c]).sum();
-                if agreement < 0.0 {
-                    next[2..].iter_mut().for_each(|g| *g = -*g);
-                }
-            }
+            let known = behind.last().or(lit.first());
+            let same_sheet = known.is_none_or(|known| known.agrees_with(&next));
+            behind.push(if same_sheet { next } else { next.negated() });
         }
+        let all = behind.into_iter().rev().chain(lit);
+        let values: Vec<[f64; PAIR_CHANNELS]> = all.map(Into::into).collect();
         Some(Chebyshev::fit(&values, -dark, reach))
     }
 
@@ -186,7 +231,7 @@ impl Fold {
         path: &mut RootPath,
         delta: f64,
         q: f64,
-    ) -> Option<[f64; PAIR_CHANNELS]> {
+    ) -> Option<PairValues> {
         let angle = self.angle + self.lit * delta;
         let (p1, e1) = plane.aim(angle, path.guess(q))?;
         path.add(q, p1);
@@ -198,7 +243,7 @@ impl Fold {
         }
         let z = (0.75 * difference / (q * q * q)).powf(2.0 / 3.0);
         let q = Complex64::new(q, 0.0);
-        Some(self.channels(plane, angle, &e1, &e2, q, z, 0.5 * (e1.path + e2.path)))
+        Some(self.values(plane, angle, &e1, &e2, q, z, 0.5 * (e1.path + e2.path)))
     }
 
     fn dark_values(
@@ -206,7 +251,7 @@ impl Fold {
         plane: &ScatteringPlane,
         path: &mut RootPath,
         delta: f64,
-    ) -> Option<[f64; PAIR_CHANNELS]> {
+    ) -> Option<PairValues> {
         let angle = self.angle + self.lit * delta;
         let q = Complex64::new(0.0, (-delta).sqrt());
         let (p1, e1) = plane.aim(angle, path.guess_complex(q))?;
@@ -219,12 +264,12 @@ impl Fold {
         }
         let z = (0.75 * ratio.re).powf(2.0 / 3.0);
         let mean = 0.5 * (e1.path + e2.path).re;
-        Some(self.channels(plane, angle, &e1, &e2, q, z, mean))
+        Some(self.values(plane, angle, &e1, &e2, q, z, mean))
     }
 
     /// Mean path, ζ̂, g₀ and g₁ of two rays at `±q`; `z = ζ̂/δ`.
     #[allow(clippy::too_many_arguments)] // one formula, one place
-    fn channels<T: Scalar>(
+    fn values<T: Scalar>(
         &self,
         plane: &ScatteringPlane,
         angle: f64,
@@ -233,26 +278,20 @@ impl Fold {
         q: Complex64,
         z: f64,
         mean: f64,
-    ) -> [f64; PAIR_CHANNELS] {
+    ) -> PairValues {
         // spread/q is analytic and of one sign at ±q; its root is the principal one
         let sign = (e1.spread().complex() / q).re.signum();
         let weight = |e: &Exit<T>, q: Complex64| 1.0 / (e.spread().complex() / q * sign).sqrt();
         let t1 = plane.transfer(e1, angle) * weight(e1, q);
         let t2 = plane.transfer(e2, angle) * weight(e2, -q);
         let quarter = z.powf(0.25);
-        let mut out = [0.0; PAIR_CHANNELS];
-        out[0] = mean;
-        out[1] = z * (q * q).re;
         let pairs = [(t1.s1, t2.s1), (t1.s2, t2.s2), (t1.s3, t2.s3), (t1.s4, t2.s4)];
-        for (k, (a, b)) in pairs.into_iter().enumerate() {
-            let g0 = (a + b) * quarter;
-            let g1 = (a - b) / q / quarter;
-            out[2 + 2 * k] = g0.re;
-            out[3 + 2 * k] = g0.im;
-            out[10 + 2 * k] = g1.re;
-            out[11 + 2 * k] = g1.im;
+        PairValues {
+            path: mean,
+            zeta: z * (q * q).re,
+            sums: pairs.map(|(a, b)| (a + b) * quarter),
+            differences: pairs.map(|(a, b)| (a - b) / q / quarter),
         }
-        out
     }
 }
 

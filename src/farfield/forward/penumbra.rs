@@ -10,7 +10,7 @@
 use super::diffraction::{ForwardDiffraction, hankel_over_leading_term, ramp};
 use super::penumbra_layout::Layout;
 use super::penumbra_profile::{Edge, PenumbraProfile, Values};
-use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
+use crate::farfield::branch::knots::{Kind, Knot, Segment, SingleKnot};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::scattering_plane::ScatteringPlane;
 use crate::farfield::direction::Direction;
@@ -230,19 +230,21 @@ impl Penumbra {
         let ([path, path_slope], [reference, reference_slope]) =
             (edge.path(angle), edge.reflected_path(angle));
         let turned = Complex64::cis(x * (path - reference));
-        let mut knot = [0.0; CHANNELS];
-        (knot[0], knot[1], knot[2]) = (angle, reference, reference_slope);
+        let mut knot = SingleKnot {
+            angle,
+            path: reference,
+            path_slope: reference_slope,
+            ..SingleKnot::default()
+        };
         for e in 0..2 {
             let rate = slope[e] - i * x * shift * value[e];
             let value = value[e] * carrier + sharp;
             let rate = rate * carrier - sharp / angle
                 + value * (i * x * (path_slope - reference_slope) - 0.5 * cos / sin);
-            let (value, rate) = (value * factor * turned, rate * factor * turned);
-            let (c, s) = (PLAIN_AMPLITUDE + 2 * e, SLOPE + 2 * e);
-            (knot[c], knot[c + 1]) = (value.re, value.im);
-            (knot[s], knot[s + 1]) = (rate.re, rate.im);
+            knot.amplitudes[e] = value * factor * turned;
+            knot.rates[e] = rate * factor * turned;
         }
-        knot
+        knot.into()
     }
 }
 

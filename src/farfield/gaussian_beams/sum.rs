@@ -15,6 +15,7 @@
 use super::beam::{APART, Beam, FARTHEST, moved, step};
 use super::launch::Launch;
 use crate::farfield::direction::Direction;
+use crate::farfield::wave_field::WaveField;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Silhouette;
@@ -92,18 +93,6 @@ impl GaussianBeams {
         Self { size_parameter, beams, starts, members }
     }
 
-    /// Add the waves in some directions of one azimuth, scattering angles ascending.
-    pub fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
-        let directions: Vec<Direction> = theta.iter().map(|&t| Direction::new(t, phi)).collect();
-        self.add_side(theta, &directions, phi, |i, wave| sums[i] += wave);
-        // beams of the other side are mirror images
-        let mirrored: Vec<Direction> = theta.iter().map(|&t| Direction::new(t, -phi)).collect();
-        self.add_side(theta, &mirrored, -phi, |i, mut wave| {
-            (wave.s3, wave.s4) = (-wave.s3, -wave.s4);
-            sums[i] += wave;
-        });
-    }
-
     fn add_side(
         &self,
         theta: &[f64],
@@ -125,6 +114,19 @@ impl GaussianBeams {
                 }
             }
         }
+    }
+}
+
+impl WaveField for GaussianBeams {
+    fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
+        let directions: Vec<Direction> = theta.iter().map(|&t| Direction::new(t, phi)).collect();
+        self.add_side(theta, &directions, phi, |i, wave| sums[i] += wave);
+        // beams of the other side are mirror images
+        let mirrored: Vec<Direction> = theta.iter().map(|&t| Direction::new(t, -phi)).collect();
+        self.add_side(theta, &mirrored, -phi, |i, mut wave| {
+            (wave.s3, wave.s4) = (-wave.s3, -wave.s4);
+            sums[i] += wave;
+        });
     }
 }
 

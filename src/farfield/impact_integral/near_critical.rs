@@ -10,7 +10,7 @@
 
 use super::near_grazing::wave_knot;
 use super::rays::{Prefactor, Rays, TUNNEL};
-use crate::farfield::branch::knots::{Kind, Segment};
+use crate::farfield::branch::knots::{Kind, Knot, Segment};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::fold::Fold;
@@ -178,7 +178,7 @@ pub(crate) fn segment(
         wave_knot([angle, path, slope], factor, &integrand.sum(angle, path, x), x)
     };
     let knots: Vec<_> = places.iter().map(knot).collect();
-    knots.iter().flatten().all(|v| v.is_finite()).then_some(Segment { kind: Kind::Wave, knots })
+    knots.iter().all(Knot::is_finite).then_some(Segment { kind: Kind::Wave, knots })
 }
 
 #[cfg(test)]

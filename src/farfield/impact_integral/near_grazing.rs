@@ -20,7 +20,7 @@ use super::glory::Glory;
 use super::integrand::{Integrand, Sums};
 use super::near_grazing_layout::NearGrazingLayout;
 use super::rays::{Prefactor, Rays};
-use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, PLAIN_AMPLITUDE, SLOPE, Segment};
+use crate::farfield::branch::knots::{Kind, Knot, Segment, SingleKnot};
 use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -75,7 +75,7 @@ impl<'l> NearGrazing<'l> {
             let sums = self.integrand.sum(angle, path, x);
             knots.push(wave_knot([angle, path, slope], factor, &sums, x));
         }
-        let finite = knots.iter().flatten().all(|v| v.is_finite());
+        let finite = knots.iter().all(Knot::is_finite);
         finite.then_some(Segment { kind: Kind::Wave, knots })
     }
 
@@ -95,21 +95,17 @@ impl<'l> NearGrazing<'l> {
 
 /// A knot of a wave from its sums: `place` is angle, reference path and the slope of that.
 pub(crate) fn wave_knot(place: [f64; 3], factor: Complex64, sums: &Sums, x: f64) -> Knot {
-    let [angle, path, slope] = place;
-    let mut knot = [0.0; CHANNELS];
-    (knot[0], knot[1], knot[2]) = (angle, path, slope);
+    let [angle, path, path_slope] = place;
+    let mut knot = SingleKnot { angle, path, path_slope, ..SingleKnot::default() };
     let shrink = -0.5 * angle.cos() / angle.sin();
     for (element, (sum, by_impact)) in sums[0].iter().zip(&sums[1]).enumerate() {
         let value = factor * sum;
         // d/dϑ of exp(-ix(βϑ + W_ref)) and of 1/√sin ϑ
-        let by_angle = -Complex64::i() * x * (factor * by_impact + slope * value);
-        let rate = by_angle + shrink * value;
-        let c = PLAIN_AMPLITUDE + 2 * element;
-        (knot[c], knot[c + 1]) = (value.re, value.im);
-        let c = SLOPE + 2 * element;
-        (knot[c], knot[c + 1]) = (rate.re, rate.im);
+        let by_angle = -Complex64::i() * x * (factor * by_impact + path_slope * value);
+        knot.amplitudes[element] = value;
+        knot.rates[element] = by_angle + shrink * value;
     }
-    knot
+    knot.into()
 }
 
 /// For each knot the part of the reference path that is due to the knots' own slopes.
@@ -158,10 +154,7 @@ mod tests {
             let (angle, path) = (node.angle, 0.1);
             let factor = before.towards(angle) / angle.sin().abs().sqrt();
             let knot = wave_knot([angle, path, 0.0], factor, &integrand.sum(angle, path, x), x);
-            let found = |e: usize| {
-                let c = PLAIN_AMPLITUDE + 2 * e;
-                Complex64::new(knot[c], knot[c + 1]) * Complex64::cis(x * path)
-            };
+            let found = |e: usize| knot.single().amplitudes[e] * Complex64::cis(x * path);
             let transfer = curve.plane().transfer(&node.exit, angle);
             let phase = x * node.exit.path - FRAC_PI_2 * f64::from(1 + node.exit.focal_lines);
             let ray = Complex64::cis(phase) / node.exit.spread().abs().sqrt();
@@ -192,14 +185,16 @@ mod tests {
         let at = |off: f64| {
             let (angle, path) = (angle + off, path + slope * off);
             let factor = Complex64::new(0.4, 0.7) / angle.sin().sqrt();
-            wave_knot([angle, path, slope], factor, &integrand.sum(angle, path, x), x)
+            wave_knot([angle, path, slope], factor, &integrand.sum(angle, path, x), x).single()
         };
         let (before, here, after) = (at(-H), at(0.0), at(H));
-        for c in 0..8 {
-            let rate = (after[PLAIN_AMPLITUDE + c] - before[PLAIN_AMPLITUDE + c]) / (2.0 * H);
-            assert!((rate - here[SLOPE + c]).abs() < 1e-4 * (1.0 + rate.abs()), "{c}: {rate}");
+        for e in 0..4 {
+            let rate = (after.amplitudes[e] - before.amplitudes[e]) / (2.0 * H);
+            let off = rate - here.rates[e];
+            assert!(off.re.abs() < 1e-4 * (1.0 + rate.re.abs()), "{e}: {rate}");
+            assert!(off.im.abs() < 1e-4 * (1.0 + rate.im.abs()), "{e}: {rate}");
         }
-        assert_eq!((here[0], here[1], here[2]), (angle, path, slope));
+        assert_eq!((here.angle, here.path, here.path_slope), (angle, path, slope));
     }
 
     /// Reference paths follow the knots' own slopes, from the anchor on.

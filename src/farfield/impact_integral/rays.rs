@@ -23,20 +23,34 @@ const SAMPLES_PER_PERIOD: f64 = 1.8;
 
 /// What the integral needs along a plane, as polynomials in the launch point `sin α`.
 pub(crate) struct Rays {
-    channels: Vec<Chebyshev<1>>,
-    order: usize,
+    channels: Channels<Chebyshev<1>>,
     /// Launch points of the first and the last real ray.
     from: f64,
     to: f64,
 }
 
-/// Channels: impact, path L without the part outside, spreading, path inside, then three for each
-/// meeting with the surface, then the last turn of the frame.
-const IMPACT: usize = 0;
-const PATH: usize = 1;
-const SPREADING: usize = 2;
-const INSIDE: usize = 3;
-const MEETINGS: usize = 4;
+/// What is known of a ray, or the polynomials through that of all.
+struct Channels<T> {
+    impact: T,
+    /// Path L without the part outside.
+    path: T,
+    spreading: T,
+    /// Path inside.
+    inside: T,
+    meetings: Vec<MeetingChannels<T>>,
+    /// Last turn of the frame.
+    last_turn: T,
+}
+
+/// How a ray meets the surface.
+pub(crate) struct MeetingChannels<T> {
+    /// Squared cosine outside.
+    pub square: T,
+    /// Radius of curvature.
+    pub radius: T,
+    /// Turn of the frame before it.
+    pub turn: T,
+}
 
 /// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
 /// which their phase stands still.
@@ -90,7 +104,7 @@ impl Prefactor {
 impl Rays {
     /// The anchor for a launch point. It varies smoothly with azimuth, also where no real ray leaves.
     pub(crate) fn anchor(&self, sin: f64) -> Anchor {
-        let ((path, path_rate), (impact, rate)) = (self.at(PATH, sin), self.at(IMPACT, sin));
+        let ((path, path_rate), (impact, rate)) = (self.path(sin), self.impact(sin));
         let angle = path_rate / rate;
         Anchor { angle, impact, path: path - impact * angle }
     }
@@ -102,7 +116,6 @@ impl Rays {
         degree: usize,
     ) -> Option<Self> {
         let plane = curve.plane();
-        let order = plane.order as usize;
         let points = chebyshev::points(RAYS, from, to);
         let mut meetings: Vec<Meeting> = Vec::new();
         let mut rows = Vec::with_capacity(RAYS);
@@ -112,21 +125,37 @@ impl Rays {
             plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings)?;
             rows.push(row(curve, &node, &meetings)?);
         }
-        unwrap_turns(&mut rows, MEETINGS, order);
-        let channels = (0..rows[0].len())
-            .map(|c| {
-                let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
-                let mut series = Chebyshev::fit(&values, from, to);
-                series.truncate(degree);
-                series
-            })
-            .collect();
-        Some(Self { channels, order, from, to })
+        unwrap_turns(&mut rows);
+        let fit = |value: &dyn Fn(&Channels<f64>) -> f64| {
+            let values: Vec<[f64; 1]> = rows.iter().map(|row| [value(row)]).collect();
+            let mut series = Chebyshev::fit(&values, from, to);
+            series.truncate(degree);
+            series
+        };
+        let meeting = |hit: usize| MeetingChannels {
+            square: fit(&|row| row.meetings[hit].square),
+            radius: fit(&|row| row.meetings[hit].radius),
+            turn: fit(&|row| row.meetings[hit].turn),
+        };
+        let channels = Channels {
+            impact: fit(&|row| row.impact),
+            path: fit(&|row| row.path),
+            spreading: fit(&|row| row.spreading),
+            inside: fit(&|row| row.inside),
+            meetings: (0..meetings.len()).map(meeting).collect(),
+            last_turn: fit(&|row| row.last_turn),
+        };
+        Some(Self { channels, from, to })
     }
 
-    fn at(&self, channel: usize, sin: f64) -> (f64, f64) {
-        let ([value], [slope]) = self.channels[channel].at(sin);
-        (value, slope)
+    /// The impact and its slope by launch point.
+    fn impact(&self, sin: f64) -> (f64, f64) {
+        at(&self.channels.impact, sin)
+    }
+
+    /// The path and its slope by launch point.
+    fn path(&self, sin: f64) -> (f64, f64) {
+        at(&self.channels.path, sin)
     }
 
     /// The launch point beyond the rim up to which waves tunnel.
@@ -153,10 +182,10 @@ impl Rays {
             let sin = self.from + k as f64 * step;
             let weight = weight(sin) * step;
             let matrix = self.transfer(sin, index, x)?;
-            let (spreading, _) = self.at(SPREADING, sin);
-            let (impact, rate) = self.at(IMPACT, sin);
-            let (path, _) = self.at(PATH, sin);
-            let (inside, _) = self.at(INSIDE, sin);
+            let (spreading, _) = at(&self.channels.spreading, sin);
+            let (impact, rate) = self.impact(sin);
+            let (path, _) = self.path(sin);
+            let (inside, _) = at(&self.channels.inside, sin);
             let absorbed = (-x * index.im * inside / index.re).exp();
             let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
             integrand.push(impact, path, matrix.map(|m| m * factor));
@@ -167,10 +196,11 @@ impl Rays {
 
     /// Launch point at which the first of entry and exit becomes grazing.
     fn last_real(&self) -> f64 {
-        let grazing = |channel: usize| {
+        let grazing = |meeting: Option<&MeetingChannels<Chebyshev<1>>>| {
+            let Some(meeting) = meeting else { return f64::INFINITY };
             let mut sin = self.to;
             for _ in 0..20 {
-                let (value, slope) = self.at(channel, sin);
+                let (value, slope) = at(&meeting.square, sin);
                 let step = (value / slope).clamp(-0.02, 0.02);
                 if !step.is_finite() {
                     return f64::INFINITY;
@@ -179,36 +209,47 @@ impl Rays {
             }
             sin
         };
-        let (entry, exit) = (grazing(MEETINGS), grazing(MEETINGS + 3 * self.order));
+        let meetings = &self.channels.meetings;
+        let (entry, exit) = (grazing(meetings.first()), grazing(meetings.last()));
         entry.min(if exit > self.from { exit } else { f64::INFINITY }).clamp(self.to, self.to + 0.3)
     }
 
     /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
     fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
-        let channel = |c: usize| self.at(MEETINGS + c, sin).0;
-        let [across, along] = transfer(channel, self.order, index, x);
+        let meeting = |channels: &MeetingChannels<Chebyshev<1>>| MeetingChannels {
+            square: at(&channels.square, sin).0,
+            radius: at(&channels.radius, sin).0,
+            turn: at(&channels.turn, sin).0,
+        };
+        let meetings = self.channels.meetings.iter().map(meeting);
+        let [across, along] = transfer(meetings, at(&self.channels.last_turn, sin).0, index, x);
         let all = [across[0], along[1], -across[1], -along[0]];
         all.iter().all(|s| s.is_finite()).then_some(all)
     }
 }
 
+fn at(series: &Chebyshev<1>, sin: f64) -> (f64, f64) {
+    let ([value], [slope]) = series.at(sin);
+    (value, slope)
+}
+
 /// Fields `[perpendicular, perpendicular × direction]` of a ray that has left, for incident light of either
-/// kind, from three channels for each meeting (squared cosine outside, radius of curvature, turn of the
-/// frame before it) and the last turn of the frame; with the phases of the waves outside.
+/// kind, from how it met the surface each time and the last turn of the frame; with the phases of the waves
+/// outside.
 pub(crate) fn transfer(
-    channel: impl Fn(usize) -> f64,
-    order: usize,
+    meetings: impl ExactSizeIterator<Item = MeetingChannels<f64>>,
+    last_turn: f64,
     index: Complex64,
     x: f64,
 ) -> [[Complex64; 2]; 2] {
+    let count = meetings.len();
     let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
-    for hit in 0..=order {
-        let square = channel(3 * hit);
-        turn(&mut fields, channel(3 * hit + 2));
-        let grazing = Grazing::whole(square, x * channel(3 * hit + 1));
+    for (hit, MeetingChannels { square, radius, turn: before }) in meetings.enumerate() {
+        turn(&mut fields, before);
+        let grazing = Grazing::whole(square, x * radius);
         let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
         let f = curved_from_inside(inside, index, &grazing);
-        let through = hit == 0 || hit == order;
+        let through = hit == 0 || hit + 1 == count;
         let (perpendicular, parallel) = if through {
             (f.t_perpendicular, f.t_parallel)
         } else {
@@ -219,7 +260,7 @@ pub(crate) fn transfer(
             field[1] *= parallel;
         }
     }
-    turn(&mut fields, channel(3 * (order + 1)));
+    turn(&mut fields, last_turn);
     fields
 }
 
@@ -232,8 +273,8 @@ fn turn(fields: &mut [[Complex64; 2]; 2], angle: f64) {
     }
 }
 
-/// All channels of one ray.
-fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Vec<f64>> {
+/// What is known of one ray.
+fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Channels<f64>> {
     let plane = curve.plane();
     let (_, growing) = plane.frame(node.angle);
     let across = plane.across();
@@ -242,9 +283,9 @@ fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Vec
     let minor = plane.spread_across(exit, node.angle);
     let path = exit.path + impact * node.angle + paths_outside(meetings)?;
     let spreading = node.angle.sin().abs() / minor.abs();
-    let mut row = vec![impact, path, spreading, path_inside(meetings)?];
-    row.extend(channels_of(meetings, across, across, exit.direction));
-    Some(row)
+    let inside = path_inside(meetings)?;
+    let (meetings, last_turn) = turned_frames(meetings, across, across, exit.direction);
+    Some(Channels { impact, path, spreading, inside, meetings, last_turn })
 }
 
 /// The ways of the waves outside from their turning points to the first meeting and from the last.
@@ -260,32 +301,34 @@ fn path_inside(meetings: &[Meeting]) -> Option<f64> {
     Some(meetings.last()?.path - meetings.first()?.path)
 }
 
-/// The channels that [`transfer`] needs, for the first axes of the frames before and behind; frames are
+/// What [`transfer`] needs, for the first axes of the frames before and behind; frames are
 /// (perpendicular, perpendicular × direction).
-fn channels_of(
+fn turned_frames(
     meetings: &[Meeting],
     before: Vec3<f64>,
     behind: Vec3<f64>,
     direction: Vec3<f64>,
-) -> Vec<f64> {
-    let mut channels = Vec::with_capacity(3 * meetings.len() + 1);
+) -> (Vec<MeetingChannels<f64>>, f64) {
     let mut frame = before;
-    for meeting in meetings {
-        let angle = frame_turn(frame, meeting.perpendicular, meeting.direction);
-        channels.extend([meeting.cos_squared_outside, meeting.radius, angle]);
+    let met = |meeting: &Meeting| {
+        let turn = frame_turn(frame, meeting.perpendicular, meeting.direction);
         frame = meeting.perpendicular;
-    }
-    channels.push(frame_turn(frame, behind, direction));
-    channels
+        MeetingChannels { square: meeting.cos_squared_outside, radius: meeting.radius, turn }
+    };
+    let met = meetings.iter().map(met).collect();
+    (met, frame_turn(frame, behind, direction))
 }
 
-/// Unwrap the turns of frames, smooth along rows of which the channels of [`transfer`] begin at `first`.
-fn unwrap_turns(rows: &mut [Vec<f64>], first: usize, order: usize) {
+/// Unwrap the turns of frames, smooth along rows.
+fn unwrap_turns(rows: &mut [Channels<f64>]) {
+    let near = |turn: &mut f64, before: f64| *turn += TAU * ((before - *turn) / TAU).round();
     for k in 1..rows.len() {
-        for hit in 0..=order + 1 {
-            let c = first + if hit > order { 3 * (order + 1) } else { 3 * hit + 2 };
-            rows[k][c] += TAU * ((rows[k - 1][c] - rows[k][c]) / TAU).round();
+        let (before, rest) = rows.split_at_mut(k);
+        let (before, row) = (&before[k - 1], &mut rest[0]);
+        for (meeting, before) in row.meetings.iter_mut().zip(&before.meetings) {
+            near(&mut meeting.turn, before.turn);
         }
+        near(&mut row.last_turn, before.last_turn);
     }
 }
 
@@ -387,13 +430,21 @@ mod tests {
         let second = at(0.1).cross(z);
         assert!((fields[0][0] - at(0.4).dot(at(0.1))).norm() < 1e-15);
         assert!((fields[0][1] - at(0.4).dot(second)).norm() < 1e-15);
-        // two channels, then three for each of two meetings, and the last turn
-        let row = |a: f64, b: f64| vec![0.0, 0.0, 1.0, 1.0, a, 1.0, 1.0, 0.1, b];
+        let row = |a: f64, last_turn: f64| Channels {
+            impact: 0.0,
+            path: 0.0,
+            spreading: 1.0,
+            inside: 1.0,
+            meetings: [a, 0.1]
+                .map(|turn| MeetingChannels { square: 1.0, radius: 1.0, turn })
+                .into(),
+            last_turn,
+        };
         let mut rows = [row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
-        unwrap_turns(&mut rows, 2, 1);
-        assert!(
-            (rows[1][4] - (TAU - 3.1)).abs() < 1e-15 && (rows[2][4] - (TAU - 3.0)).abs() < 1e-15
-        );
-        assert!((rows[2][8] - (3.0 - TAU)).abs() < 1e-15 && rows[2][7] == 0.1);
+        unwrap_turns(&mut rows);
+        let first = |k: usize| rows[k].meetings[0].turn;
+        assert!((first(1) - (TAU - 3.1)).abs() < 1e-15 && (first(2) - (TAU - 3.0)).abs() < 1e-15);
+        assert!((rows[2].last_turn - (3.0 - TAU)).abs() < 1e-15);
+        assert_eq!(rows[2].meetings[1].turn, 0.1);
     }
 }

@@ -7,9 +7,9 @@
 //! the entry and of the exit, are taken out as on a sphere: paths are measured between the turning points
 //! of the waves outside ([`Grazing::path_outside`]), directions turned back by the grazing angles.
 
-use super::radial_rays::{Way, path_on_sphere, path_series};
+use super::radial_rays::{RadialRay, Way, path_on_sphere, path_series};
 use crate::farfield::branch::window::Window;
-use crate::farfield::impact_integral::rays::{TUNNEL, transfer};
+use crate::farfield::impact_integral::rays::{MeetingChannels, TUNNEL, transfer};
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::vec3::Vec3;
 use crate::optics::Grazing;
@@ -33,21 +33,52 @@ const LEAST_SLOPE: f64 = 0.1;
 /// Largest angle inside.
 const STEEPEST: f64 = 0.98 * FRAC_PI_2;
 
-/// Channels, each less what it is on a sphere: impact (a ratio), path, path inside, direction, direction
-/// of the impact, density; for each meeting the vector of incidence and the curvature along the ray times
-/// the square of the sine outside; last the normal of the ray's plane.
-const IMPACT: usize = 0;
-const PATH: usize = 1;
-const INSIDE: usize = 2;
-const DIRECTION: usize = 3;
-const ASIDE: usize = 6;
-const DENSITY: usize = 9;
-const MEETINGS: usize = 11;
+/// Polynomials through what is known of the rays: see [`RadialRay`].
+struct Channels {
+    impact: Chebyshev<1>,
+    path: Chebyshev<1>,
+    inside: Chebyshev<1>,
+    direction: Chebyshev<3>,
+    aside: Chebyshev<3>,
+    density: Chebyshev<2>,
+    meetings: Vec<Chebyshev<3>>,
+    normal: Chebyshev<2>,
+}
+
+impl Channels {
+    fn through(rays: &[RadialRay], from: f64, to: f64) -> Self {
+        fn fit<const C: usize>(values: &[[f64; C]], from: f64, to: f64) -> Chebyshev<C> {
+            let mut series = Chebyshev::fit(values, from, to);
+            series.truncate(DEGREE);
+            series
+        }
+        let one = |value: &dyn Fn(&RadialRay) -> f64| {
+            fit(&rays.iter().map(|ray| [value(ray)]).collect::<Vec<_>>(), from, to)
+        };
+        let two = |value: &dyn Fn(&RadialRay) -> [f64; 2]| {
+            fit(&rays.iter().map(value).collect::<Vec<_>>(), from, to)
+        };
+        let three = |value: &dyn Fn(&RadialRay) -> [f64; 3]| {
+            fit(&rays.iter().map(value).collect::<Vec<_>>(), from, to)
+        };
+        let hits = rays.first().map_or(0, |ray| ray.meetings.len());
+        Self {
+            impact: one(&|ray| ray.impact),
+            path: one(&|ray| ray.path),
+            inside: one(&|ray| ray.inside),
+            direction: three(&|ray| ray.direction),
+            aside: three(&|ray| ray.aside),
+            density: two(&|ray| ray.density),
+            meetings: (0..hits).map(|hit| three(&|ray| ray.meetings[hit])).collect(),
+            normal: two(&|ray| ray.normal),
+        }
+    }
+}
 
 /// The line of launch points at one azimuth; its coordinate is a sphere's angle inside, `τ`, with the
 /// launch point at `s = n sin τ` of the way from the centre to the rim.
 pub(crate) struct RadialLine {
-    channels: Vec<Chebyshev<1>>,
+    channels: Channels,
     order: usize,
     /// Whether the line begins at the centre.
     whole: bool,
@@ -143,13 +174,7 @@ impl RadialLine {
         let points = chebyshev::points(RAYS, from, last);
         let sense = way.sense(index * last.sin())?;
         let rows = points.iter().map(|&tau| way.row(tau, sense)).collect::<Option<Vec<_>>>()?;
-        let fit = |c: usize| {
-            let values: Vec<[f64; 1]> = rows.iter().map(|row| [row[c]]).collect();
-            let mut series = Chebyshev::fit(&values, from, last);
-            series.truncate(DEGREE);
-            series
-        };
-        let channels: Vec<_> = (0..rows[0].len()).map(fit).collect();
+        let channels = Channels::through(&rows, from, last);
         let anchor = points[RAYS / 2];
         // impacts must serve as coordinates
         let slope =
@@ -185,14 +210,11 @@ impl RadialLine {
         Some(line)
     }
 
-    /// A channel and its slope.
-    fn channel(&self, channel: usize, tau: f64) -> (f64, f64) {
-        let ([value], [slope]) = self.channels[channel].at(tau.min(self.last));
-        (value + slope * (tau - self.last).max(0.0), slope)
-    }
-
-    fn at(&self, channel: usize, tau: f64) -> f64 {
-        self.channel(channel, tau).0
+    /// The values of a polynomial and their slopes, continued in a straight line.
+    fn at<const C: usize>(&self, series: &Chebyshev<C>, tau: f64) -> ([f64; C], [f64; C]) {
+        let (value, slope) = series.at(tau.min(self.last));
+        let beyond = (tau - self.last).max(0.0);
+        (std::array::from_fn(|c| value[c] + slope[c] * beyond), slope)
     }
 
     /// Coordinate from the last real ray on at which a meeting becomes grazing.
@@ -206,30 +228,29 @@ impl RadialLine {
     /// How the ray meets the surface.
     fn incidence(&self, hit: usize, tau: f64) -> Incidence {
         let s = self.index * tau.sin();
-        let c = MEETINGS + 3 * hit;
-        let (v1, v2) = (self.sense * s + self.at(c, tau), self.at(c + 1, tau));
+        let ([v1, v2, curved], _) = self.at(&self.channels.meetings[hit], tau);
+        let v1 = self.sense * s + v1;
         let sine = v1 * v1 + v2 * v2;
-        let radius = (sine / (s * s + self.at(c + 2, tau))).clamp(1e-3, 1e3);
+        let radius = (sine / (s * s + curved)).clamp(1e-3, 1e3);
         Incidence { square: 1.0 - sine, radius, angle: v2.atan2(v1) }
     }
 
     /// Fields of the ray that has left, by [`transfer`].
     fn fields(&self, tau: f64, index: Complex64, x: f64) -> [[Complex64; 2]; 2] {
-        let mut channels = Vec::with_capacity(3 * self.order + 4);
+        let mut meetings = Vec::with_capacity(self.order + 1);
         let (mut before, mut hand) = (0.0, 1.0);
         for hit in 0..=self.order {
             let Incidence { square, radius, angle } = self.incidence(hit, tau);
-            channels.extend([square, radius, hand * (angle - before)]);
+            meetings.push(MeetingChannels { square, radius, turn: hand * (angle - before) });
             before = angle;
             // frames are mirrored where rays are reflected
             if hit > 0 && hit < self.order {
                 hand = -hand;
             }
         }
-        let c = MEETINGS + 3 * (self.order + 1);
-        let normal = self.at(c + 1, tau).atan2(self.at(c, tau));
-        channels.push(hand * (normal - before));
-        transfer(|c| channels[c], self.order, index, x)
+        let ([along, across], _) = self.at(&self.channels.normal, tau);
+        let last_turn = hand * (across.atan2(along) - before);
+        transfer(meetings.into_iter(), last_turn, index, x)
     }
 
     /// The path, with the ways of the waves outside.
@@ -250,13 +271,14 @@ impl RadialLine {
         } else {
             0.0
         };
-        let smooth = self.at(PATH, tau) + path_on_sphere(self.order, self.index, tau);
+        let ([path], _) = self.at(&self.channels.path, tau);
+        let smooth = path + path_on_sphere(self.order, self.index, tau);
         smooth + outside(0) + outside(self.order) - 2.0 * sphere
     }
 
     /// The impact and its slope.
     fn impact(&self, tau: f64) -> (f64, f64) {
-        let (ratio, slope) = self.channel(IMPACT, tau);
+        let ([ratio], [slope]) = self.at(&self.channels.impact, tau);
         let s = self.index * tau.sin();
         (s * ratio, self.index * tau.cos() * ratio + s * slope)
     }
@@ -265,14 +287,16 @@ impl RadialLine {
     pub(crate) fn largest_twist(&self) -> f64 {
         let twist = |k: usize| {
             let tau = self.from + (self.last - self.from) * k as f64 / 19.0;
-            let normal = self.vector(DIRECTION, tau).cross(self.vector(ASIDE, tau));
+            let [direction, aside] =
+                [&self.channels.direction, &self.channels.aside].map(|v| self.vector(v, tau));
+            let normal = direction.cross(aside);
             (self.impact(tau).0 * normal.z).abs()
         };
         (0..20).map(twist).fold(0.0, f64::max)
     }
 
-    fn vector(&self, channel: usize, tau: f64) -> Vec3<f64> {
-        let [x, y, z] = [0, 1, 2].map(|k| self.at(channel + k, tau));
+    fn vector(&self, series: &Chebyshev<3>, tau: f64) -> Vec3<f64> {
+        let ([x, y, z], _) = self.at(series, tau);
         Vec3 { x, y, z }
     }
 
@@ -311,7 +335,8 @@ impl RadialLine {
 
     fn ring(&self, tau: f64, index: Complex64, x: f64) -> Option<Ring> {
         let [across, along] = self.fields(tau, index, x);
-        let inside = self.at(INSIDE, tau) + 2.0 * self.order as f64 * index.re * tau.cos();
+        let ([inside], _) = self.at(&self.channels.inside, tau);
+        let inside = inside + 2.0 * self.order as f64 * index.re * tau.cos();
         let absorbed = (-x * index.im * inside / index.re).exp();
         let wave = Complex64::cis(TAU * (x / TAU * self.path(tau)).fract());
         let s = self.index * tau.sin();
@@ -322,9 +347,9 @@ impl RadialLine {
             [0, 1].map(|k| weight * (along[k] * cos - across[k] * sin)),
             [0, 1].map(|k| weight * (along[k] * sin + across[k] * cos)),
         ];
-        let direction = self.vector(DIRECTION, tau);
+        let direction = self.vector(&self.channels.direction, tau);
         let direction = direction * direction.dot(direction).sqrt().recip();
-        let aside = self.vector(ASIDE, tau);
+        let aside = self.vector(&self.channels.aside, tau);
         let aside = aside - direction * aside.dot(direction);
         let aside = aside * aside.dot(aside).sqrt().recip();
         let null = Vec3 {
@@ -338,7 +363,10 @@ impl RadialLine {
     /// Root of the density, continued from the anchor.
     fn root(&self, tau: f64) -> Complex64 {
         const STEPS: usize = 24;
-        let density = |tau: f64| -Complex64::new(self.at(DENSITY, tau), self.at(DENSITY + 1, tau));
+        let density = |tau: f64| {
+            let ([re, im], _) = self.at(&self.channels.density, tau);
+            -Complex64::new(re, im)
+        };
         let mut root = density(self.anchor).sqrt();
         for k in 1..=STEPS {
             let next = density(self.anchor + (tau - self.anchor) * k as f64 / STEPS as f64).sqrt();

@@ -8,6 +8,25 @@ use crate::trace::{Exit, Meeting, Tracer};
 use num_complex::Complex64;
 use std::f64::consts::FRAC_PI_2;
 
+/// What a wave needs of a ray, each less what it is on a sphere.
+pub(crate) struct RadialRay {
+    /// Impact, a ratio.
+    pub impact: f64,
+    pub path: f64,
+    /// Path inside.
+    pub inside: f64,
+    pub direction: [f64; 3],
+    /// Direction of the impact.
+    pub aside: [f64; 3],
+    /// Density of rays, real and imaginary part.
+    pub density: [f64; 2],
+    /// For each meeting the vector of incidence, and the curvature along the ray times the square of the sine
+    /// outside.
+    pub meetings: Vec<[f64; 3]>,
+    /// Normal of the ray's plane, in the frame that follows the ray.
+    pub normal: [f64; 2],
+}
+
 /// Real rays along a line.
 pub(crate) struct Way<'a> {
     tracer: &'a Tracer<'a>,
@@ -130,8 +149,8 @@ impl<'a> Way<'a> {
         Some((exit, meetings))
     }
 
-    /// All channels of one ray.
-    pub(crate) fn row(&self, tau: f64, sense: f64) -> Option<Vec<f64>> {
+    /// What is known of one ray.
+    pub(crate) fn row(&self, tau: f64, sense: f64) -> Option<RadialRay> {
         let index = self.tracer.index().re;
         let s = index * tau.sin();
         let (exit, meetings) = self.meetings(s)?;
@@ -153,20 +172,27 @@ impl<'a> Way<'a> {
         let density = density * Complex64::cis(-turned) / (s * s);
         let (sin, cos) = turned.sin_cos();
         let (d, a) = (exit.direction * cos - aside * sin, aside * cos + exit.direction * sin);
-        let mut row = vec![impact / s, path, inside];
-        row.extend([d.x, d.y, d.z, a.x, a.y, a.z, density.re, density.im]);
+        let mut met = Vec::with_capacity(meetings.len());
         // a frame that follows the ray smoothly, also where it meets the surface squarely
         let mut frame = [self.across(), self.across().cross(meetings[0].direction)];
         for (hit, meeting) in meetings.iter().enumerate() {
             let square = (1.0 - meeting.cos_squared_outside).max(0.0);
             let [v1, v2] = frame.map(|axis| square.sqrt() * meeting.perpendicular.dot(axis));
-            row.extend([v1 - sense * s, v2, square / meeting.radius - s * s]);
+            met.push([v1 - sense * s, v2, square / meeting.radius - s * s]);
             let next = meetings.get(hit + 1).map_or(exit.direction, |next| next.direction);
             let mirrored = hit > 0 && hit < order;
             frame = frame.map(|axis| carried(axis, meeting, next, mirrored));
         }
-        row.extend(frame.map(|axis| normal.dot(axis)));
-        Some(row)
+        Some(RadialRay {
+            impact: impact / s,
+            path,
+            inside,
+            direction: [d.x, d.y, d.z],
+            aside: [a.x, a.y, a.z],
+            density: [density.re, density.im],
+            meetings: met,
+            normal: frame.map(|axis| normal.dot(axis)),
+        })
     }
 
     /// The root of the density of a real ray, turned back, but for a positive factor, such that stationary
@@ -257,14 +283,22 @@ mod tests {
             let sense = way.sense(0.9).unwrap();
             let row = |s: f64| way.row((s / index).asin(), sense).unwrap();
             let first = row(0.3);
-            assert!((first[0] - 1.0).abs() < 1e-12 && first[1].abs() + first[2].abs() < 1e-12);
+            assert!((first.impact - 1.0).abs() < 1e-12);
+            assert!(first.path.abs() + first.inside.abs() < 1e-12);
+            let all = |ray: RadialRay| -> Vec<f64> {
+                let RadialRay { impact, path, inside, direction, aside, density, meetings, normal } =
+                    ray;
+                let vectors = [direction, aside].into_iter().chain(meetings).flatten();
+                let pairs = [density, normal].into_iter().flatten();
+                [impact, path, inside].into_iter().chain(vectors).chain(pairs).collect()
+            };
             for s in [0.1, 0.6, 0.9, 0.99] {
-                for (c, (a, b)) in first.iter().zip(row(s)).enumerate() {
+                for (c, (a, b)) in all(row(0.3)).into_iter().zip(all(row(s))).enumerate() {
                     assert!((a - b).abs() < 1e-8, "{order} {s} {c}: {a} {b}");
                 }
             }
             // direction and impact are square to each other and of unit length
-            let [d, a] = [3, 6].map(|c| Vec3 { x: first[c], y: first[c + 1], z: first[c + 2] });
+            let [d, a] = [first.direction, first.aside].map(|[x, y, z]| Vec3 { x, y, z });
             assert!((d.dot(d) - 1.0).abs() + (a.dot(a) - 1.0).abs() + d.dot(a).abs() < 1e-12);
         }
     }

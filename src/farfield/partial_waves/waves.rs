@@ -15,6 +15,7 @@
 
 use super::radial_line::{RadialLine, Ring, central_ray};
 use crate::farfield::assignment::Thresholds;
+use crate::farfield::wave_field::WaveField;
 use crate::math::spherical_harmonics::legendre;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
@@ -91,9 +92,10 @@ impl PartialWaves {
         };
         Self { samples: (0..count).into_par_iter().map(sample).collect(), most }
     }
+}
 
-    /// Add the waves in some directions of one azimuth.
-    pub fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
+impl WaveField for PartialWaves {
+    fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
         let count = self.samples.len();
         let waves: Vec<Complex64> = (0..=2 * self.most)
             .map(|m| Complex64::cis((m as f64 - self.most as f64) * phi))
