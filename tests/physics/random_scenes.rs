@@ -612,14 +612,14 @@ mod truth {
         let (mut psi0, mut psi1, mut chi0, mut chi1) = (x.cos(), x.sin(), -x.sin(), x.cos());
         let (mut ext, mut sca, mut g) = (0.0, 0.0, 0.0);
         let mut before: Option<(Complex64, Complex64)> = None;
-        for n in 1..=terms {
+        for (n, &derivative) in d.iter().enumerate().take(terms + 1).skip(1) {
             let order = n as f64;
             let psi = (2.0 * order - 1.0) * psi1 / x - psi0;
             let chi = (2.0 * order - 1.0) * chi1 / x - chi0;
             let (xi, xi1) = (Complex64::new(psi, -chi), Complex64::new(psi1, -chi1));
             let of = |h: Complex64| (h * psi - psi1) / (h * xi - xi1);
-            let a = of(d[n] / m + order / x);
-            let b = of(d[n] * m + order / x);
+            let a = of(derivative / m + order / x);
+            let b = of(derivative * m + order / x);
             ext += (2.0 * order + 1.0) * (a + b).re;
             sca += (2.0 * order + 1.0) * (a.norm_sqr() + b.norm_sqr());
             g += (2.0 * order + 1.0) / (order * (order + 1.0)) * (a * b.conj()).re;

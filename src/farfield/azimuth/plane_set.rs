@@ -193,7 +193,7 @@ impl PlaneSet {
             let order = planes.order;
             let segments = planes.planes.first().into_iter().flatten();
             let piece = move |segment: &Segment| {
-                let angles = [segment.knots.first()?[0], segment.knots.last()?[0]];
+                let angles = [segment.knots.first()?.angle(), segment.knots.last()?.angle()];
                 Some(Piece { order, kind: Some(segment.kind), angles })
             };
             let glory = move |wave: &Glory| Piece { order, kind: None, angles: wave.angles() };

@@ -32,26 +32,34 @@ pub struct Knot([f64; CHANNELS]);
 /// One wave: that of a ray, `T/√|spread|`, or any wave against a reference path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SingleKnot {
+    /// Exit angle, radians.
     pub angle: f64,
-    /// Path, and its slope by angle.
+    /// Path, radii.
     pub path: f64,
+    /// Its slope by the exit angle.
     pub path_slope: f64,
-    /// S1 … S4, and their slopes by angle.
+    /// S1 … S4.
     pub amplitudes: [Complex64; 4],
+    /// Their slopes by the exit angle.
     pub rates: [Complex64; 4],
 }
 
 /// Two rays about a fold.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairKnot {
+    /// Exit angle, radians.
     pub angle: f64,
-    /// Mean path, and its slope by angle.
+    /// Mean path, radii.
     pub path: f64,
+    /// Its slope by the exit angle.
     pub path_slope: f64,
+    /// `ζ̂`, the argument of the Airy functions but for the power of the size parameter.
     pub zeta: f64,
+    /// Its slope by the exit angle.
     pub zeta_slope: f64,
-    /// `g₀` and `g₁` of S1 … S4.
+    /// `g₀` of S1 … S4.
     pub sums: [Complex64; 4],
+    /// `g₁` of S1 … S4.
     pub differences: [Complex64; 4],
 }
 
@@ -126,10 +134,12 @@ impl Knot {
         &self.0
     }
 
+    /// All places, to be mixed number by number.
     pub fn channels_mut(&mut self) -> &mut [f64; CHANNELS] {
         &mut self.0
     }
 
+    /// Whether all of it are numbers.
     pub fn is_finite(&self) -> bool {
         self.0.iter().all(|value| value.is_finite())
     }

@@ -19,9 +19,13 @@ use num_complex::Complex64;
 /// What is analytic in the two rays of a fold: mean path, ζ̂, `g₀` and `g₁` of S1 … S4.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairValues {
+    /// Mean path of the two rays.
     pub path: f64,
+    /// `ζ̂`, the argument of the Airy functions but for the power of the size parameter.
     pub zeta: f64,
+    /// `g₀` of S1 … S4.
     pub sums: [Complex64; 4],
+    /// `g₁` of S1 … S4.
     pub differences: [Complex64; 4],
 }
 
