@@ -179,6 +179,9 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let joined = apart.then(|| self::far_field(plan, index, size_parameter, &scene.phi, true));
     let whole = joined.as_ref().unwrap_or(&far_field);
     let sections = CrossSections::new(plan, whole, index, budget.absorbed);
+    // What the edge takes beyond the shadow goes with the peak.
+    let beyond = sections.extinction
+        - CrossSections::new(plan, &far_field, index, budget.absorbed).extinction;
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
     let treatment = Treatment {
@@ -200,7 +203,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         filter: treatment.filter,
         diffraction: plan.forward_diffraction.then(|| far_field.forward_wave()),
         scattering: sections.scattering(),
-        shadow_area: far_field.silhouette().area(),
+        shadow_area: far_field.silhouette().area() + beyond,
         left_out,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };

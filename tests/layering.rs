@@ -215,13 +215,22 @@ fn file_imports(src: &Path) -> BTreeMap<String, BTreeSet<String>> {
         // what a facade hands on, it does not use
         let own: String = code
             .split_inclusive(';')
-            .filter(|line| !line.trim_start().starts_with("pub use "))
+            .filter(|line| !without_attributes(line).starts_with("pub use "))
             .collect();
         let paths = modules.paths_in(module, &own);
         let files = paths.iter().filter_map(|path| Some(modules.0[modules.home(path)?].0.clone()));
         imports.insert(name.clone(), files.filter(|file| file != name).collect());
     }
     imports
+}
+
+/// A piece of code from behind the attributes that it begins with.
+fn without_attributes(code: &str) -> &str {
+    let code = code.trim_start();
+    match code.strip_prefix("#[").and_then(|rest| rest.split_once('\n')) {
+        Some((_, rest)) => without_attributes(rest),
+        None => code,
+    }
 }
 
 /// All paths of names that begin here, groups `a::{b, c::d}` taken apart.

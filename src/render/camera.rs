@@ -3,7 +3,7 @@
 //! World frame: z up, x towards the point of the horizon above or below the antisolar point,
 //! y = z × x. The sun stands behind the camera, at azimuth 180°.
 
-use super::RenderError;
+use super::error::RenderError;
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 use std::str::FromStr;

@@ -17,6 +17,7 @@
 pub mod bow;
 pub mod camera;
 mod directions;
+mod error;
 mod picture;
 #[cfg(feature = "pictures")]
 mod plots;
@@ -27,6 +28,7 @@ mod thinned;
 mod tristimulus;
 
 pub use directions::DirectionGrid;
+pub use error::RenderError;
 pub use picture::{Picture, write_complete};
 #[cfg(feature = "pictures")]
 pub use plots::color_diagram::ColorDiagram;
@@ -40,39 +42,3 @@ pub use plots::preview;
 pub use ray_paths::draw_ray_paths;
 pub use thinned::Thinned;
 pub use tristimulus::{Tristimulus, rotational_xyz};
-
-use crate::color::ColorError;
-use crate::fault::{Blame, Fault};
-use std::path::PathBuf;
-
-/// Why a picture cannot be made.
-#[derive(Debug, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say what each case and field is")]
-pub enum RenderError {
-    #[error(transparent)]
-    Color(#[from] ColorError),
-    #[error("{}: {source}", path.display())]
-    Write { path: PathBuf, source: std::io::Error },
-    #[error("drawing failed: {0}")]
-    Drawing(String),
-    #[error("{field} = {value}: {accepted}")]
-    Invalid { field: String, value: String, accepted: String },
-}
-
-impl Blame for RenderError {
-    fn fault(&self) -> Fault {
-        match self {
-            RenderError::Color(_) | RenderError::Invalid { .. } => Fault::Input,
-            RenderError::Write { .. } | RenderError::Drawing(_) => Fault::Run,
-        }
-    }
-}
-
-#[cfg(feature = "pictures")]
-impl<E: std::error::Error + Send + Sync> From<plotters::drawing::DrawingAreaErrorKind<E>>
-    for RenderError
-{
-    fn from(error: plotters::drawing::DrawingAreaErrorKind<E>) -> Self {
-        RenderError::Drawing(error.to_string())
-    }
-}

@@ -1,6 +1,6 @@
 //! An RGB picture, and how it gets into a file: complete, or not at all.
 
-use super::RenderError;
+use super::error::RenderError;
 use crate::pending_file;
 use std::path::Path;
 

@@ -9,7 +9,8 @@
 //! Light scattered more than once is left out.
 
 use super::camera::Camera;
-use super::{Picture, RenderError, Tristimulus};
+use super::error::RenderError;
+use super::{Picture, Tristimulus};
 use crate::color::{
     Illuminant, Observer, SUN_ANGULAR_RADIUS, encode_srgb, fit_gamut, xyz_to_linear_srgb,
 };

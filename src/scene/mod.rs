@@ -15,7 +15,6 @@ mod file;
 #[cfg(feature = "cli")]
 mod flags;
 mod grid;
-mod own;
 mod particle;
 mod read;
 mod size;

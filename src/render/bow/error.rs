@@ -5,7 +5,7 @@ use crate::fault::{Blame, Fault};
 use crate::hdf5::TableError;
 use crate::medium::MediumError;
 use crate::plan::PlanError;
-use crate::render::RenderError;
+use crate::render::error::RenderError;
 use crate::scene::SceneError;
 use crate::series::SeriesError;
 use crate::simulate::SimulateError;

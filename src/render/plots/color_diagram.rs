@@ -2,7 +2,7 @@
 //! ray optics as lines to compare with.
 
 use crate::color::to_srgb;
-use crate::render::RenderError;
+use crate::render::error::RenderError;
 use crate::render::picture::Picture;
 use crate::render::plots::font::{FONT, ensure_font};
 use crate::render::plots::heat_map::draw_pixels;

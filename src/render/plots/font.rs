@@ -1,6 +1,6 @@
 //! The font compiled into the program: a bare machine has none, and without one nothing is drawn.
 
-use crate::render::RenderError;
+use crate::render::error::RenderError;
 use plotters::style::{FontStyle, register_font};
 use std::sync::OnceLock;
 

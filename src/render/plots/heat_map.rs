@@ -1,6 +1,6 @@
 //! Heat maps: a block of pixels inside a chart, and the colour bar that explains it.
 
-use crate::render::RenderError;
+use crate::render::error::RenderError;
 use crate::render::plots::font::FONT;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::Ranged;

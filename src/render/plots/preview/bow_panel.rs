@@ -3,7 +3,7 @@
 use super::axes::{Area, TICKS, degrees, labels_over, within};
 use crate::color::{Illuminant, Observer, SUN_ANGULAR_RADIUS, to_srgb};
 use crate::phase_table::PhaseTable;
-use crate::render::RenderError;
+use crate::render::error::RenderError;
 use crate::render::plots::font::FONT;
 use crate::render::plots::heat_map::draw_pixels;
 use crate::render::tristimulus::{Tristimulus, rotational_xyz};

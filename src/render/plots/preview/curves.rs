@@ -4,8 +4,8 @@ use super::axes::{Area, TICKS, decade_label, degrees, labels_over, log_range};
 use super::error_strip;
 use crate::color::wavelength_srgb;
 use crate::phase_table::{PhaseTable, Slab};
-use crate::render::RenderError;
 use crate::render::directions::DirectionGrid;
+use crate::render::error::RenderError;
 use crate::render::plots::font::FONT;
 use plotters::prelude::*;
 

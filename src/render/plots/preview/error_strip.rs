@@ -1,7 +1,7 @@
 //! The stated error by scattering angle, as a strip below the curves of a preview.
 
 use crate::phase_table::{ERROR_BANDS, PhaseTable, error_theta};
-use crate::render::RenderError;
+use crate::render::error::RenderError;
 use crate::render::plots::font::FONT;
 use crate::render::plots::heat_map::power_of_ten;
 use plotters::coord::Shift;

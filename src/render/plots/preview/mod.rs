@@ -8,8 +8,8 @@ mod error_strip;
 
 use crate::math::digits::to_digits;
 use crate::phase_table::PhaseTable;
-use crate::render::RenderError;
 use crate::render::directions::DirectionGrid;
+use crate::render::error::RenderError;
 use crate::render::picture::Picture;
 use crate::render::plots::font::{FONT, ensure_font};
 use crate::render::plots::heat_map::{colour_bar, draw_pixels};
