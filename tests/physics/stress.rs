@@ -308,13 +308,18 @@ fn smallest_tables() {
                 let found = slab(&scene(&format!(
                     "[particle]\nshape = \"{shape}\"\nradius_mm = 0.5\nmedium = \"water\"\n[light]\n\
                      sun_elevation_deg = 20\nwavelengths_nm = [550]\n[table]\ntheta_deg = [{theta}]\n\
-                     azimuth_deg = [0]\n[model]\nmethod = \"{method}\"\n"
+                     azimuth_deg = [0]\nforward_peak = \"point\"\n[model]\nmethod = \"{method}\"\n"
                 )));
                 assert_eq!(found.values.len(), 2);
                 assert!(found.values.iter().all(|v| *v >= 0.0));
             }
         }
     }
+    // Two samples of a whole sphere do not add up: refused unless the sum is left open, as above.
+    let coarse = scene(&one.replace("[90]", "[0, 180]"));
+    let plan = Plan::new(&coarse).unwrap();
+    let refused = simulate::slab(&coarse, &plan, 550e-9).unwrap_err().to_string();
+    assert!(refused.contains("forward_peak = \"point\""), "{refused}");
 }
 
 /// The power that leaves a sphere, from rays through the corners of index and size.

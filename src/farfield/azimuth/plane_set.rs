@@ -4,7 +4,7 @@
 //! all planes of an order have the same landmarks, their segments vary smoothly with azimuth and
 //! any column is interpolated from eight neighbours. When few columns are asked for, their own
 //! planes are traced instead. Orders whose planes do not correspond (more than two rays
-//! coalesce somewhere: cusps, umbilics) are told by [`PlaneSet::outcomes`].
+//! coalesce somewhere: cusps, umbilics) are told by `PlaneSet::outcomes`.
 
 use super::matching::another;
 use super::order_planes::{Azimuths, OrderPlanes};
