@@ -6,6 +6,7 @@
 //! series. Waves that are wrong by `Δ` change the intensity `|S|²` by `√2 |S||Δ|` on average over their
 //! phase.
 
+use super::assignment::Method;
 use super::direction::Direction;
 use super::far_field::{FarField, Source};
 use super::sphere_check::{SAMPLES, samples, spread};
@@ -86,12 +87,41 @@ impl FarField<'_> {
                 (rays[i] + waves[i] + ahead).s11()
             })
             .collect();
+        let inside: Vec<f64> = rays.iter().zip(&waves).map(|(r, w)| (*r + *w).s11()).collect();
+        let doubt = self.doubt_of_deformation();
+        let most = if self.planes_in_place_of_waves() { f64::INFINITY } else { median(&inside) };
+        wrong.iter_mut().zip(&inside).for_each(|(w, s)| *w += doubt * doubt * s.min(most));
         let squares = std::array::from_fn(|band| {
             let sum = |v: &[f64]| v[band * SAMPLES..(band + 1) * SAMPLES].iter().sum::<f64>();
             sphere_squares[band] + (2.0 * sum(&wrong) / sum(&found)).min(1.0)
         });
         ErrorEstimate::of_bands(&squares, &band_squares(&found))
     }
+}
+
+impl FarField<'_> {
+    /// Share of their amplitude by which the waves of a small deformed body may be wrong, by whatever
+    /// method: what is wrong of its bows and rings stands in all directions, so that where the waves are
+    /// brighter than their median it is a share of that.
+    fn doubt_of_deformation(&self) -> f64 {
+        let deformation = self.silhouette().deformation();
+        let by = self.assignment().map(|assignment| assignment.thresholds());
+        by.map_or(0.0, |by| by.doubt_of_deformation(self.size_parameter(), deformation))
+    }
+
+    /// Whether scattering planes serve transmitted light where partial waves should, since the radial lines
+    /// of their rays break off: then the bright directions are as doubtful as the dark ones.
+    fn planes_in_place_of_waves(&self) -> bool {
+        let Some(assignment) = self.assignment() else { return false };
+        let small = self.size_parameter() < assignment.thresholds().partial_waves_below;
+        small && assignment.orders_of(Method::Planes).iter().any(|&order| order > 0)
+    }
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// An azimuth off the spokes of patches.

@@ -18,27 +18,20 @@ struct Part {
     field: Box<dyn WaveField>,
     /// Share of its amplitude by which its wave may be wrong, measured against Debye terms.
     doubt: f64,
-    /// Whether that is a share of the wave's median over the scattering angle where it is brighter: what is
-    /// wrong of a deformed body's bows and rings stands in all directions, not in its bright ones.
-    everywhere: bool,
 }
 
 impl FallbackField {
-    /// What an assignment leaves beside scattering planes; `waves` are its partial waves, of
-    /// a body whose outline has some deformation.
+    /// What an assignment leaves beside scattering planes; `waves` are its partial waves.
     pub(crate) fn new(
         tracer: &Tracer,
         waves: Option<PartialWaves>,
-        deformation: f64,
         assignment: &Assignment,
         settings: &FarFieldSettings,
     ) -> Self {
         let mut parts = Vec::new();
         if let Some(waves) = waves {
-            // of a sphere theirs is measured
-            let by = assignment.thresholds();
-            let doubt = by.doubt_of_deformed_waves(settings.size_parameter, deformation);
-            parts.push(Part { field: Box::new(waves), doubt, everywhere: true });
+            // theirs is measured on the sphere, and stated by the deformation of others
+            parts.push(Part { field: Box::new(waves), doubt: 0.0 });
         }
         let doubt = |orders: &[u32]| orders.iter().min().map(|&lowest| assignment.error_of(lowest));
         let (reflected, transmitted): (Vec<u32>, Vec<u32>) =
@@ -46,14 +39,14 @@ impl FallbackField {
         for orders in [reflected, transmitted] {
             if let Some(doubt) = doubt(&orders) {
                 let field = Box::new(PatchField::of_orders(tracer, &orders, settings));
-                parts.push(Part { field, doubt, everywhere: false });
+                parts.push(Part { field, doubt });
             }
         }
         let by_beams = assignment.orders_of(Method::Beams);
         if let Some(doubt) = doubt(&by_beams) {
             let (azimuths, x) = (settings.azimuths, settings.size_parameter);
             let field = Box::new(GaussianBeams::new(tracer, &by_beams, azimuths, x));
-            parts.push(Part { field, doubt, everywhere: false });
+            parts.push(Part { field, doubt });
         }
         Self(parts)
     }
@@ -64,21 +57,13 @@ impl FallbackField {
         let mut wrong = vec![0.0; theta.len()];
         for part in &self.0 {
             let waves = waves(&*part.field, theta, phi);
-            let most = if part.everywhere { median(&waves) } else { f64::INFINITY };
             for (i, wave) in waves.into_iter().enumerate() {
                 sums[i] += wave;
-                wrong[i] += part.doubt * part.doubt * wave.s11().min(most);
+                wrong[i] += part.doubt * part.doubt * wave.s11();
             }
         }
         (sums, wrong)
     }
-}
-
-/// The median of `S11` over some directions.
-fn median(waves: &[AmplitudeMatrix]) -> f64 {
-    let mut sizes: Vec<f64> = waves.iter().map(AmplitudeMatrix::s11).collect();
-    sizes.sort_by(f64::total_cmp);
-    sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
 }
 
 impl WaveField for FallbackField {

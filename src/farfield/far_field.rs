@@ -79,8 +79,7 @@ impl<'a> FarField<'a> {
         let assignment = assignment.after(Outcome::CrossCheck(&differences));
 
         let planes = planes.only(&assignment.orders_of(Method::Planes));
-        let fallback =
-            FallbackField::new(tracer, waves, silhouette.deformation(), &assignment, settings);
+        let fallback = FallbackField::new(tracer, waves, &assignment, settings);
         Self {
             source: Source::Planes(Box::new(planes), fallback),
             assignment: Some(assignment),

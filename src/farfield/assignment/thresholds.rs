@@ -99,10 +99,10 @@ pub struct Thresholds {
     pub error_of_knots: f64,
     /// Of sums over partial waves: in units of `1/x`.
     pub error_of_partial_waves: f64,
-    /// What the deformation of a body adds to the stated error of its partial waves: a share of their
-    /// amplitude, per cube root of the deformation and per `1/√x`. Against the T-matrix, spheroids of x = 20,
-    /// 50, 100 with axis ratios 0.91 to 0.98 and raindrops of 1 and 2 mm at x = 30.
-    pub error_of_deformed_waves: f64,
+    /// What the deformation of a body adds to the stated error below [`Thresholds::partial_waves_below`],
+    /// where it fades: a share of the amplitude, per cube root of the deformation and per `1/√x`. Against the
+    /// T-matrix: spheroids of x = 20, 50, 100 with axis ratios 0.91 to 0.98, raindrops of 1 and 2 mm at x = 30.
+    pub error_of_deformation: f64,
     /// Of sums of beams: times the order.
     pub error_of_beams: f64,
     /// Of patches without bows (reflection), and with.
@@ -141,7 +141,7 @@ impl Thresholds {
         error_of_planes: [0.25, 1.25, 8.0, 1.25],
         error_of_knots: 0.5,
         error_of_partial_waves: 2.0,
-        error_of_deformed_waves: 4.2,
+        error_of_deformation: 4.2,
         error_of_beams: 0.02,
         error_of_reflection_by_patches: 0.07,
         error_of_patches: 0.3,
@@ -149,9 +149,10 @@ impl Thresholds {
 }
 
 impl Thresholds {
-    /// Share of their amplitude by which partial waves of a deformed body may be wrong.
-    pub fn doubt_of_deformed_waves(&self, size_parameter: f64, deformation: f64) -> f64 {
-        (self.error_of_deformed_waves * deformation.cbrt() / size_parameter.sqrt()).min(1.0)
+    /// Share of its amplitude by which the wave of a deformed body may be wrong beyond that of a sphere.
+    pub fn doubt_of_deformation(&self, size_parameter: f64, deformation: f64) -> f64 {
+        let fading = (1.0 - size_parameter / self.partial_waves_below).max(0.0).sqrt();
+        (self.error_of_deformation * fading * deformation.cbrt() / size_parameter.sqrt()).min(1.0)
     }
 
     /// Whether an order's rays cross the axis again and make their bow near the rim.
