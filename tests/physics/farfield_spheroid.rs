@@ -9,6 +9,7 @@
 
 use gonio::math::vec3::Vec3;
 use gonio::optics::AmplitudeMatrix;
+use gonio::phase_table::error_theta;
 use gonio::plan::{Engine, Plan, last_order};
 use gonio::series::lorenz_mie::Sphere;
 use gonio::shape::Shape;
@@ -209,4 +210,51 @@ fn spheroids_are_as_good_as_spheres() {
         }
     }
     assert!(worse.is_empty(), "{worse:?}");
+}
+
+/// What a table of a spheroid states by bands of 4° is what the T-matrix says it errs, root mean square over
+/// the bands from 10° to 170°, within a factor of 2.
+#[test]
+fn spheroids_state_their_error() {
+    let all = rows();
+    let same = |a: &Row, b: &Row| {
+        (a.x, a.flatness, a.sun_elevation) == (b.x, b.flatness, b.sun_elevation)
+            && a.plane == b.plane
+    };
+    let mut ratios = Vec::new();
+    for group in all.chunk_by(same) {
+        let first = &group[0];
+        let exact: Vec<AmplitudeMatrix> = group.iter().map(|r| r.amplitude).collect();
+        let directions: Vec<(f64, f64)> = group.iter().map(|r| r.direction).collect();
+        let shape = Shape::spheroid(1.0 / first.flatness, first.sun_elevation).unwrap();
+        let found = rays(shape.clone(), first.x, &directions);
+        let orders = (0..=last_order(INDEX, TOLERANCE)).collect();
+        let plan = Plan::direct(shape, 1.0, Engine::Meridians, orders, true, TOLERANCE, None);
+        let stated = simulate::worth_of_rays(&plan, INDEX.into(), first.x).unwrap();
+        let (mut off, mut told, mut bands) = (0.0, 0.0, 0.0);
+        for band in 3..43 {
+            let near = |i: usize| {
+                let theta = directions[i].0;
+                (theta - error_theta(band)).abs() < 2f64.to_radians()
+            };
+            let [error, _] = errors(&found, &exact, near);
+            if error.is_finite() {
+                off += error.min(1.0).powi(2);
+                told += stated.by_direction[band].min(1.0).powi(2);
+                bands += 1.0;
+            }
+        }
+        assert!(bands > 30.0, "{bands} bands");
+        let ratio = (off / told).sqrt();
+        println!(
+            "x = {}, {} to 1, sun {:.0}°, {}: true over stated {ratio:.2}",
+            first.x,
+            first.flatness,
+            first.sun_elevation.to_degrees(),
+            first.plane
+        );
+        ratios.push(ratio);
+    }
+    assert!(ratios.len() >= 16, "{} planes", ratios.len());
+    assert!(ratios.iter().all(|ratio| (0.5..2.0).contains(ratio)), "{ratios:.2?}");
 }

@@ -90,6 +90,13 @@ pub struct Thresholds {
     /// size.
     pub largest_checked_sphere: f64,
 
+    /// Size parameter up to which the power that amplitudes scatter is added up over the sphere and compared
+    /// with extinction less absorption: beyond, rays lose less than 1 % of the light. And the largest share
+    /// by which the two may differ; up to there the difference is in the stated error.
+    pub largest_power_sum: f64,
+    /// The share of the sentence above.
+    pub most_power_lost: f64,
+
     /// Share of its amplitude by which a wave may be off, root mean square from 10° to 170°, measured
     /// against Debye terms of spheres (n = 1.333 and 1.5, x = 300 to 10 000). Of scattering planes by
     /// order (the last: and higher), in units of `x^{-2/3}`, the size of the next term of uniform formulas;
@@ -138,6 +145,8 @@ impl Thresholds {
         beams_from: 1000.0,
         beams_tolerance: 0.03,
         largest_checked_sphere: 20_000.0,
+        largest_power_sum: 200.0,
+        most_power_lost: 0.25,
         error_of_planes: [0.25, 1.25, 8.0, 1.25],
         error_of_knots: 0.5,
         error_of_partial_waves: 2.0,
