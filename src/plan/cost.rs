@@ -11,7 +11,7 @@ use crate::shape::Body;
 use std::f64::consts::TAU;
 
 /// The program, its libraries and threads.
-const PROGRAM: f64 = 21e6;
+const PROGRAM: f64 = 22e6;
 /// Slabs at once: one being computed, one waiting, one being written.
 const SLABS: f64 = 3.0;
 /// Amplitudes and values of one direction of a column, and columns in work on each thread.
@@ -38,7 +38,7 @@ const LEFT_AFTER: f64 = 7.0;
 const PARTIAL_WAVES: f64 = 420.0;
 /// Spheres: coefficients per size parameter; means over sizes: sums on all threads.
 const SERIES_SIZE: f64 = 1000.0;
-const MEANS: f64 = 75e6;
+const MEANS: f64 = 82e6;
 
 /// Processor seconds to compress and write one value, to start and draw an empty preview, and to draw
 /// one of its directions.

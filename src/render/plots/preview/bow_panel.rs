@@ -63,7 +63,9 @@ pub(super) fn draw_bow(area: &Area<'_>, panel: BowPanel) -> Result<(), RenderErr
     let (theta, phi, color) = match panel {
         BowPanel::Missing(reason) => {
             let style = (FONT, 15).into_font().color(&RGBColor(90, 90, 90));
-            area.draw(&Text::new(format!("no colours: {reason}"), (40, 40), style))?;
+            for (i, line) in lines(&format!("no colours: {reason}")).into_iter().enumerate() {
+                area.draw(&Text::new(line, (40, 40 + LINE * i as i32), style.clone()))?;
+            }
             return Ok(());
         }
         BowPanel::Colors { theta, phi, color } => (theta, phi, color),
@@ -103,4 +105,36 @@ pub(super) fn draw_bow(area: &Area<'_>, panel: BowPanel) -> Result<(), RenderErr
     }
     mesh.draw()?;
     Ok(())
+}
+
+/// Pixels from line to line of a note, and letters that fit into the panel's width.
+const LINE: i32 = 22;
+const LETTERS: usize = 62;
+
+/// A note in lines that fit.
+fn lines(note: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in note.split(' ') {
+        let last = lines.len() - 1;
+        if !lines[last].is_empty() && lines[last].len() + 1 + word.len() > LETTERS {
+            lines.push(word.to_string());
+        } else {
+            let gap = if lines[last].is_empty() { "" } else { " " };
+            lines[last] = format!("{}{gap}{word}", lines[last]);
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn notes_are_broken_between_words() {
+        let note = "no colours: wavelengths from 550 to 560 nm do not cover the visible: a colour needs 420 nm";
+        let broken = lines(note);
+        assert!(broken.len() == 2 && broken.iter().all(|line| line.len() <= LETTERS), "{broken:?}");
+        assert_eq!(broken.join(" "), note);
+    }
 }
