@@ -22,7 +22,7 @@ const PREVIEW_VALUES: f64 = 64.0 * 1024.0 * 1024.0;
 const PREVIEW_DIRECTION: f64 = 24.0;
 /// Per ray and order of a grid of patches: corners twice (as traced, and as a sheet), triangles, and
 /// their hierarchy of boxes. Measured: 1.69 GB for 500 × 1000 rays of 4 orders.
-const PATCH: f64 = 840.0;
+const PATCH: f64 = 890.0;
 /// Spokes of the grid of patches on the sphere that the stated error is measured on.
 const CHECK_SPOKES: usize = 96;
 /// Meridians of an order at all its azimuths; what is added in drops whose rays tangle, from the radius
@@ -32,7 +32,7 @@ const MERIDIANS: f64 = 4.5e6;
 const TANGLED: f64 = 5e6;
 const TANGLED_FROM: f64 = 0.4e-3;
 const TANGLED_OVER: f64 = 0.9e-3;
-const LEFT_BETWEEN: f64 = 0.5;
+const LEFT_BETWEEN: f64 = 0.85;
 const LEFT_AFTER: f64 = 7.0;
 /// Partial waves: samples and potentials, per squared size parameter.
 const PARTIAL_WAVES: f64 = 420.0;
