@@ -68,6 +68,13 @@ pub(super) fn range_text((from, to): (f64, f64)) -> String {
 /// What [`is_plausible`] accepts, in words.
 pub const PLAUSIBLE_INDEX: &str = "n from 1e-4 to 1e4, k from 0 to 1e4";
 
+/// The index with a k so small that its square is lost in `f64` taken for none: such a k changes nothing,
+/// and quotients of its powers would be no numbers.
+pub(crate) fn without_trace(index: Complex64) -> Complex64 {
+    const TRACE: f64 = 1e-150;
+    if index.im < TRACE { index.re.into() } else { index }
+}
+
 /// True for an index that any material may have between X-rays and microwaves (metals reach some
 /// hundreds in the far infrared). Beyond, squares and powers of it overflow.
 pub fn is_plausible(index: Complex64) -> bool {

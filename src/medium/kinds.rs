@@ -1,7 +1,9 @@
 //! The kinds of media: a closed set, one arm and one file each.
 
 use super::data::material::Material;
-use super::error::{MediumError, PLAUSIBLE_INDEX, invalid, is_plausible, nanometres};
+use super::error::{
+    MediumError, PLAUSIBLE_INDEX, invalid, is_plausible, nanometres, without_trace,
+};
 use super::own::OwnMedium;
 use super::solution::Solution;
 use super::water::daimon::Daimon;
@@ -48,7 +50,7 @@ impl Medium {
     pub fn index(&self, wavelength: f64) -> Result<Complex64, MediumError> {
         let index = self.index_of_data(wavelength)?;
         if is_plausible(index) {
-            return Ok(index);
+            return Ok(without_trace(index));
         }
         Err(invalid(
             &format!("index of {} at {} nm", self.name(), nanometres(wavelength)),

@@ -113,7 +113,9 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
 /// What becomes of the light on the shadow, by rays.
 fn fates(plan: &Plan, request: &Request) -> Result<Fates, ScatterError> {
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { GRID };
-    let last = plan.orders.iter().copied().max().unwrap_or(0);
+    // light that a list leaves out is followed too: it may be absorbed
+    let listed = plan.orders.iter().copied().max().unwrap_or(0);
+    let last = listed.max(last_order(request.index.re, plan.tolerance));
     let tracer = Tracer::new(&plan.shape, request.index, request.size_parameter, last);
     let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, GRID, spokes));
     if simulate::adds_up(fates.residual, request.index, last) {

@@ -207,6 +207,9 @@ impl SphereJob<'_> {
                 if !(-1.0..=1.0).contains(&left_out) {
                     return Err(cancelling(1.0 - left_out).into());
                 }
+                if left_out == 1.0 {
+                    return Err(faded(scattered).into());
+                }
                 let errors = BandErrors::of_terms(&series, terms, &sphere).at_least(SERIES_ERROR);
                 // Of all terms together, by way of the Debye coefficients.
                 let (s1, s2) = series.sum(&[Term::All], &[0.0])[0];
@@ -258,6 +261,15 @@ fn cancelling(times: f64) -> SeriesError {
         value: format!("terms that scatter {times:.1e} times as much as the sphere"),
         accepted: "Debye terms of spheres that are not small, soft or below n = 1, where they cancel \
                    but for a small rest; method = \"mie\" has that rest",
+    }
+}
+
+/// Terms of which nothing is left beside the whole: a phase function of them would be rounding alone.
+fn faded(scattered: f64) -> SeriesError {
+    SeriesError::Invalid {
+        field: "model.orders",
+        value: format!("terms with a scattering efficiency of {scattered:.1e}"),
+        accepted: "orders whose light is not absorbed inside; method = \"mie\" has the whole",
     }
 }
 

@@ -5,7 +5,7 @@ use super::cross_sections::CrossSections;
 use super::error::SimulateError;
 use crate::farfield::FarField;
 use crate::phase_table::EnergyBudget;
-use crate::plan::{Engine, Plan, Symmetry};
+use crate::plan::{Engine, Plan, Symmetry, last_order};
 use crate::tabulate::scattered_power::scattered_power;
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
 use num_complex::Complex64;
@@ -22,7 +22,9 @@ pub(super) fn energy(
     index: Complex64,
     size_parameter: f64,
 ) -> Result<EnergyBudget, SimulateError> {
-    let last = plan.orders.iter().copied().max().unwrap_or(0);
+    // light that a list leaves out is followed too: it may be absorbed, or leave in other orders
+    let listed = plan.orders.iter().copied().max().unwrap_or(0);
+    let last = listed.max(last_order(index.re, plan.tolerance));
     let tracer = Tracer::new(&plan.shape, index, size_parameter, last);
     let spokes = if plan.symmetry == Symmetry::Rotational { 4 } else { ENERGY_GRID };
     let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&plan.shape, ENERGY_GRID, spokes));

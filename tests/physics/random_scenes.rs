@@ -24,6 +24,10 @@ enum Outcome {
     Fault(String),
 }
 
+/// Scenes that long runs found wrong and that have been mended since: absorption of a list of orders, k far
+/// below rounding with n < 1, terms whose light is absorbed inside.
+const FOUND: [u64; 6] = [5444, 10384, 13471, 21359, 3621, 6855];
+
 /// As `gonio table` does: read and check the scene, compute, check.
 fn run(toml: &str) -> Outcome {
     let text = match SceneText::parse("random", toml.into()) {
@@ -83,7 +87,7 @@ fn random_scenes_end_with_a_sound_table_or_a_refusal() {
     let mut slowest = (0.0, 0);
     let (begin, most) = (Instant::now(), setting("GONIO_RANDOM_SECONDS", u64::MAX));
     let mut tried = 0;
-    for number in seed..seed + count {
+    for number in FOUND.into_iter().chain(seed..seed + count) {
         if begin.elapsed().as_secs() >= most {
             break;
         }

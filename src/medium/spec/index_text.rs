@@ -4,7 +4,7 @@
 //! The convention is n + ik with k > 0 for absorption; other programs write n − ik, which is told
 //! rather than turned round.
 
-use crate::medium::error::{MediumError, PLAUSIBLE_INDEX, invalid, is_plausible};
+use crate::medium::error::{MediumError, PLAUSIBLE_INDEX, invalid, is_plausible, without_trace};
 use num_complex::Complex64;
 
 /// Reads an index; errors say what is accepted.
@@ -53,7 +53,7 @@ pub fn parse_index(text: &str) -> Result<Complex64, MediumError> {
     if !is_plausible(index) {
         return Err(invalid("index", format!("\"{text}\""), PLAUSIBLE_INDEX));
     }
-    Ok(index)
+    Ok(without_trace(index))
 }
 
 #[cfg(test)]
@@ -65,6 +65,7 @@ mod tests {
         for (text, n, k) in [
             ("1.333", 1.333, 0.0),
             ("1.333+0.001", 1.333, 0.001),
+            ("1.333+1e-300", 1.333, 0.0),
             (" 1.5 + 0.01i ", 1.5, 0.01),
             ("(1.5+0.01j)", 1.5, 0.01),
             ("1.5+i0.01", 1.5, 0.01),
