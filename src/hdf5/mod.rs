@@ -27,10 +27,10 @@
 #![doc = include_str!("../../docs/file.md")]
 
 mod codec;
-mod diagram;
+pub(crate) mod diagram;
 mod ffi;
 mod file;
-mod format;
+pub(crate) mod format;
 mod guard;
 mod netcdf;
 mod output;
@@ -39,13 +39,10 @@ mod space;
 mod sweep_axis;
 mod write;
 
-pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
-pub use format::schema::FORMAT_VERSION;
 pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
 pub use output::WriteOptions;
 pub use read::sweep::SweepReader;
 pub use read::table::{TableReader, read};
-pub use space::{available_bytes, estimate_bytes};
 pub use sweep_axis::{AxisValues, SweepAxis, SweepCoordinate, position_of};
 pub use write::sweep::SweepWriter;
 pub use write::table::{TableWriter, write};

@@ -3,7 +3,7 @@
 //!
 //! Every column is one radius: intensity by wavelength, averaged over the sun's disc, turned into
 //! XYZ. Interference between rays that took different ways through the drop leaves a ripple far
-//! finer than the disc and the eye; it must average out and not be sampled. [`Sampling`] says how
+//! finer than the disc and the eye; it must average out and not be sampled. `sampling` says how
 //! many angles and wavelengths that takes, [`SunFilter`] averages.
 //!
 //! ```
@@ -32,14 +32,14 @@ mod diagram;
 #[cfg(feature = "hdf5")]
 pub mod file;
 mod raindrops;
-mod sampling;
+pub(crate) mod sampling;
 mod wavelengths;
 
 pub use crate::optics::Polarisation;
 pub use columns::{Bodies, columns};
 pub use diagram::{Diagram, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
-pub use sampling::{Band, Beats, Sampling, SamplingNeed};
+pub use sampling::Beats;
 
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::fault::{Blame, Fault};
@@ -55,7 +55,7 @@ use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
 use num_complex::Complex64;
 use rayon::prelude::*;
-use sampling::{AXIS_LIMIT, TRANSITION, grid};
+use sampling::{AXIS_LIMIT, Band, Sampling, SamplingNeed, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.

@@ -1,7 +1,8 @@
 //! The drops of a picture: tables read from files, or computed for the picture.
 
 use super::error::BowError;
-use crate::lee::{Beats, Sampling, SamplingNeed};
+use crate::lee::Beats;
+use crate::lee::sampling::{Sampling, SamplingNeed};
 use crate::medium::{Medium, MediumSpec};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{
