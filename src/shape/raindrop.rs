@@ -8,7 +8,8 @@
 //! deformation shrinks with the square of the radius, as balance of pressure and surface tension
 //! asks for small drops.
 
-use super::{Level, ShapeError, Slope};
+use super::error::ShapeError;
+use super::level::{Level, Slope};
 use crate::math::scalar::Scalar;
 
 const BEARD_CHUANG_1987: &str = include_str!("../../data/drops/raindrop_beard_chuang_1987.csv");

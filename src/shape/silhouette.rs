@@ -1,6 +1,6 @@
 //! The silhouette: the outline of the body's shadow, seen along the light.
 
-use super::{Body, Shape};
+use super::body::{Body, Shape};
 use crate::math::vec3::Vec3;
 use std::f64::consts::TAU;
 

@@ -4,7 +4,7 @@ use crate::cli::args::particle::{
     Index, ShapeFlags, ShapeKind, parse_index, parse_orders, raindrop_model, water_index,
 };
 use crate::cli::args::ranges::scattering_angles;
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::{Args, ValueEnum};
 use gonio::math::digits::to_digits;
 use gonio::optics::AmplitudeMatrix;
