@@ -20,8 +20,6 @@ pub mod even_angles;
 pub mod lanes;
 pub mod lorenz_mie;
 pub mod mean;
-mod mean_nodes;
-mod mean_sum;
 mod stretch;
 pub mod table;
 

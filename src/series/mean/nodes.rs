@@ -5,10 +5,10 @@
 //! enter with the Debye series cut behind an order, by the rule of equal steps. Between the two, and
 //! between cuts, one fades into the other, so that neither sees an edge.
 
-use super::mean_sum::Node;
-use super::{SeriesError, checked_term_count};
+use super::sum::Node;
 use crate::math::gauss_legendre;
 use crate::medium::{Medium, MediumError};
+use crate::series::{SeriesError, checked_term_count};
 use crate::size_distribution::SizeDistribution;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
