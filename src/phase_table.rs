@@ -16,13 +16,14 @@
 
 mod averaging;
 mod bodies;
+mod invalid;
 mod methods;
 mod validate;
 
 pub use averaging::{Averaging, DiscOfSun};
 pub use bodies::Bodies;
+pub use invalid::InvalidTable;
 pub use methods::{FormulaPart, MethodPart, MethodRange};
-pub use validate::InvalidTable;
 
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;

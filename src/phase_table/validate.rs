@@ -2,8 +2,8 @@
 //! scattering and absorption and what the wave straight ahead lacks. The same check judges a table
 //! that is to be written and one that was read.
 
+use super::invalid::{InvalidTable, invalid};
 use super::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
-use crate::fault::{Blame, Fault};
 use std::f64::consts::{PI, TAU};
 
 /// How far an element may exceed S11, relative: rounding to `f32` of both.
@@ -21,28 +21,6 @@ const FORWARD_TOLERANCE: f64 = 1e-3;
 /// How far the fates of light may be from adding up to 1: what the main path accepts of rays, and the
 /// power that an absorbing interface mixes.
 const BUDGET_TOLERANCE: f64 = 1e-6;
-
-/// What is wrong with a table or its header: the field, the value, what is accepted.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field} = {value}: {accepted}")]
-pub struct InvalidTable {
-    /// What is wrong.
-    pub field: String,
-    /// Its value.
-    pub value: String,
-    /// What would do.
-    pub accepted: String,
-}
-
-impl Blame for InvalidTable {
-    fn fault(&self) -> Fault {
-        Fault::Run
-    }
-}
-
-pub(super) fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
-    InvalidTable { field: field.into(), value: value.to_string(), accepted: accepted.into() }
-}
 
 impl Axes {
     /// # Errors

@@ -258,7 +258,8 @@ fn widening(theta: f64) -> f64 {
 mod tests {
     use super::super::penumbra_layout::near_axis;
     use super::*;
-    use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
+    use crate::farfield::branch::accumulate::add_segment;
+    use crate::farfield::branch::samples::{Samples, Side, Sums};
     use crate::series::debye::{DebyeSeries, Term};
     use crate::shape::Shape;
 
