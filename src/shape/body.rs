@@ -10,7 +10,7 @@ use crate::math::vec3::Vec3;
 
 /// The kind of body, its equal-volume sphere scaled to radius 1.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Body {
+pub(crate) enum Body {
     /// A sphere.
     Sphere,
     /// A spheroid.
@@ -25,7 +25,7 @@ pub enum Body {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// The body itself.
-    pub body: Body,
+    pub(crate) body: Body,
     /// Unit vector from the body's centre to its lower pole, in the frame of the light.
     pub down: Vec3<f64>,
 }
@@ -73,7 +73,7 @@ impl Shape {
     }
 
     /// `F` and its derivatives up to the second order at `(q, ζ)`.
-    pub fn level<T: Scalar>(&self, q: T, depth: T) -> Level<T> {
+    pub(super) fn level<T: Scalar>(&self, q: T, depth: T) -> Level<T> {
         match &self.body {
             Body::Sphere => sphere::level(q),
             Body::Spheroid(spheroid) => spheroid.level(q, depth),
@@ -83,7 +83,7 @@ impl Shape {
     }
 
     /// `F` and its first derivatives at `(q, ζ)`: what an intersection needs.
-    pub fn slope<T: Scalar>(&self, q: T, depth: T) -> Slope<T> {
+    pub(super) fn slope<T: Scalar>(&self, q: T, depth: T) -> Slope<T> {
         match &self.body {
             Body::Sphere => sphere::slope(q),
             Body::Spheroid(spheroid) => spheroid.slope(q, depth),

@@ -2,7 +2,7 @@
 
 /// `F` and its first derivatives with respect to `q = x·x` and `ζ = x·down`.
 #[derive(Clone, Copy, Debug)]
-pub struct Slope<T> {
+pub(super) struct Slope<T> {
     /// `F`.
     pub f: T,
     /// `∂F/∂q`
@@ -13,7 +13,7 @@ pub struct Slope<T> {
 
 /// First and second derivatives of `F` with respect to `q` and `ζ`.
 #[derive(Clone, Copy, Debug)]
-pub struct Level<T> {
+pub(super) struct Level<T> {
     /// `∂F/∂q`
     pub q: T,
     /// `∂F/∂ζ`

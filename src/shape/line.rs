@@ -10,7 +10,12 @@ impl Shape {
     ///
     /// Newton's method on `F(t)/t`, which has only the far root; a guess from the curvature where
     /// the chord begins is exact on a sphere. Real chords are kept inside a bracket.
-    pub fn chord<T: Scalar>(&self, from: Vec3<T>, direction: Vec3<T>, tangent: &Tangent<T>) -> T {
+    pub(crate) fn chord<T: Scalar>(
+        &self,
+        from: Vec3<T>,
+        direction: Vec3<T>,
+        tangent: &Tangent<T>,
+    ) -> T {
         let inward = -(tangent.normal.dot(direction));
         let curvature = tangent.curvature(direction);
         let guess = inward * 2.0 / (curvature + inward * inward);
@@ -34,7 +39,7 @@ impl Shape {
 
     /// Where the line `(u, v, t)` along +z first meets the surface: the coordinate `t`.
     /// `None` when it misses.
-    pub fn entry<T: Scalar>(&self, u: T, v: T) -> Option<T> {
+    pub(crate) fn entry<T: Scalar>(&self, u: T, v: T) -> Option<T> {
         let origin = Vec3::new(u, v, T::default());
         let axis = Vec3::new(T::default(), T::default(), T::real(1.0));
         Line::new(self, origin, axis).near_root(self.bounding_radius())

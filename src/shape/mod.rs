@@ -32,10 +32,10 @@ mod sphere;
 mod spheroid;
 mod tangent;
 
-pub use body::{Body, Shape};
+pub(crate) use body::Body;
+pub use body::Shape;
 pub use error::ShapeError;
-pub use level::{Level, Slope};
 pub use own::{Outline, OwnBody};
-pub use raindrop::{Raindrop, RaindropModel};
+pub use raindrop::RaindropModel;
 pub use silhouette::Silhouette;
-pub use tangent::Tangent;
+pub(crate) use tangent::Tangent;

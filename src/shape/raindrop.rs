@@ -33,7 +33,7 @@ pub enum RaindropModel {
 
 impl RaindropModel {
     /// Name in scene files.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::BeardChuang1987 => "beard-chuang-1987",
             Self::ChuangBeard1990 => "chuang-beard-1990",

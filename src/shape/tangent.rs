@@ -7,7 +7,7 @@ use crate::math::vec3::Vec3;
 
 /// The surface at one of its points.
 #[derive(Clone, Copy, Debug)]
-pub struct Tangent<T> {
+pub(crate) struct Tangent<T> {
     /// Unit normal, outward.
     pub normal: Vec3<T>,
     position: Vec3<T>,
@@ -50,7 +50,7 @@ impl<T: Scalar> Tangent<T> {
 
 impl Shape {
     /// Normal and curvature at a point of the surface.
-    pub fn tangent<T: Scalar>(&self, position: Vec3<T>) -> Tangent<T> {
+    pub(crate) fn tangent<T: Scalar>(&self, position: Vec3<T>) -> Tangent<T> {
         let down = Vec3::real(self.down);
         let level = self.level(position.dot(position), down.dot(position));
         let gradient = position * (level.q * 2.0) + down * level.z;

@@ -7,7 +7,7 @@ use crate::math::vec3::Vec3;
 
 /// How a real ray meets the surface.
 #[derive(Clone, Copy, Debug)]
-pub struct Meeting {
+pub(crate) struct Meeting {
     /// Squared cosine of the angle outside; negative under total reflection.
     pub cos_squared_outside: f64,
     /// Radius of curvature in the plane of incidence.
@@ -33,7 +33,7 @@ impl Tracer<'_> {
     }
 
     /// The same, noting how a real ray meets the surface each time.
-    pub fn trace_with_meetings(
+    pub(crate) fn trace_with_meetings(
         &self,
         u: f64,
         v: f64,

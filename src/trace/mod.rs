@@ -28,8 +28,9 @@ mod tracer;
 mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
-pub use exit::{Exit, transfer};
-pub use meeting::Meeting;
+pub use exit::Exit;
+pub(crate) use exit::transfer;
+pub(crate) use meeting::Meeting;
 pub use symmetry_plane::{PlaneRay, Rainbow, SymmetryPlane};
 pub use tracer::{Remainder, Tracer};
 pub use wavefront::Wavefront;

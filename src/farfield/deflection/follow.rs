@@ -154,7 +154,7 @@ mod tests {
     #[test]
     fn stretches_cover_the_scan() {
         let shape = Shape::sphere();
-        let tracer = Tracer::new(&shape, INDEX.into(), 100.0, 9);
+        let tracer = Tracer::new(&shape, 1.333.into(), 100.0, 9);
         for (order, crossings) in [(1, 0), (2, 0), (3, 0), (4, 1), (6, 2), (9, 3)] {
             let plane = ScatteringPlane::new(&tracer, order, 0.0, [0.0; 2]);
             let stretches = plane.stretches(160);

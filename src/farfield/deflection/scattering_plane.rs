@@ -7,7 +7,6 @@
 //! problem of sheets and caustics becomes one of branches of a function of one variable, for any
 //! smooth drop.
 
-use crate::farfield::direction::Direction;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
@@ -202,16 +201,6 @@ pub fn axial_ray(tracer: &Tracer, order: u32) -> [f64; 2] {
     probe.aim(angle, [0.0, 0.0]).map_or([0.0, 0.0], |(place, _)| place)
 }
 
-/// The direction of an unwrapped angle in the plane of an azimuth.
-pub fn direction(angle: f64, azimuth: f64) -> Direction {
-    let wrapped = angle.rem_euclid(TAU);
-    if wrapped <= PI {
-        Direction::new(wrapped, azimuth)
-    } else {
-        Direction::new(TAU - wrapped, azimuth + PI)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -343,22 +332,5 @@ mod tests {
             assert!(v.abs() < 1e-12);
         }
         assert!(axial_ray(&tracer, 1)[0].abs() > 1e-3);
-    }
-
-    #[test]
-    fn unwrapped_angles_are_directions_of_either_side() {
-        for (angle, theta, azimuth) in [
-            (0.3, 0.3, 1.0),
-            (-0.3, 0.3, 1.0 + PI),
-            (TAU + 0.5, 0.5, 1.0),
-            (PI + 0.2, PI - 0.2, 1.0 + PI),
-        ] {
-            let found = direction(angle, 1.0);
-            assert!((found.theta - theta).abs() + (found.phi - azimuth).abs() < 1e-14, "{angle}");
-            let shape = Shape::sphere();
-            let tracer = Tracer::new(&shape, INDEX.into(), 1.0, 1);
-            let unit = ScatteringPlane::new(&tracer, 1, 1.0, [0.0; 2]).frame(angle).0;
-            assert!(length(unit - found.unit) < 1e-15);
-        }
     }
 }

@@ -264,21 +264,6 @@ mod tests {
     }
 
     #[test]
-    fn impacts_clear_of_the_axis_are_found() {
-        let b = bow(INDEX, 4).unwrap();
-        let gap = 0.3;
-        let clear = clear_of_axis(INDEX, 4, b, gap).unwrap();
-        for k in 0..=20 {
-            let b = clear + (b - clear) * f64::from(k) / 20.0;
-            assert!(from_axis(INDEX, 4, b) > gap - 1e-9, "{b}");
-        }
-        assert!(from_axis(INDEX, 4, clear - b / 100.0) < gap + 0.03);
-        // deviations of order 4 pass 2π where its rays cross the axis
-        let crossing = below_axis(INDEX, 4, 0.83, 0.05);
-        assert!(from_axis(INDEX, 4, crossing) >= 0.05 && crossing <= 0.83);
-    }
-
-    #[test]
     fn twice_the_knots_are_half_as_far() {
         let mut layout = NearGrazingLayout::new([0.7, 0.8, 0.9], true);
         layout.knots = vec![vec![[0.0, 1.0], [0.4, 3.0], [1.0, 2.0]]];

@@ -151,4 +151,19 @@ mod tests {
             assert!((found / unit - 1.0).abs() < 2e-3, "{order}: {found} {unit}");
         }
     }
+
+    #[test]
+    fn impacts_clear_of_the_axis_are_found() {
+        let b = bow(INDEX, 4).unwrap();
+        let gap = 0.3;
+        let clear = clear_of_axis(INDEX, 4, b, gap).unwrap();
+        for k in 0..=20 {
+            let b = clear + (b - clear) * f64::from(k) / 20.0;
+            assert!(from_axis(INDEX, 4, b) > gap - 1e-9, "{b}");
+        }
+        assert!(from_axis(INDEX, 4, clear - b / 100.0) < gap + 0.03);
+        // deviations of order 4 pass 2π where its rays cross the axis
+        let crossing = below_axis(INDEX, 4, 0.83, 0.05);
+        assert!(from_axis(INDEX, 4, crossing) >= 0.05 && crossing <= 0.83);
+    }
 }

@@ -21,7 +21,7 @@ use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use num_complex::Complex64;
 use rayon::prelude::*;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Samples of the scattering angle per period of the highest partial wave.
 const SAMPLES_PER_PERIOD: f64 = 5.0;
@@ -189,6 +189,7 @@ fn add(sums: &mut Vec<Potentials>, found: Vec<Potentials>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     /// Sines and cosines as fast as the highest partial wave come back between their samples.
     #[test]
