@@ -39,6 +39,7 @@ pub use energy::adds_up;
 pub use error::SimulateError;
 pub use header::header;
 
+use crate::farfield::assignment::{Assignment, Method};
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{ErrorEstimate, FarField, FarFieldSettings};
@@ -144,6 +145,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         interference: scene.interference,
         filter: (scene.diffraction == Diffraction::Gaussian)
             .then(|| gaussian_filter::standard_deviation(plan.radius)),
+        peak_apart: scene.forward_peak == ForwardPeak::Separate,
     };
     let left_out = left_out(plan, &budget) * far_field.silhouette().area() / sections.scattering();
     let methods = far_field.assignment().cloned();
@@ -206,26 +208,34 @@ struct Treatment {
     interference: bool,
     /// Standard deviation of the Gaussian filter, radians.
     filter: Option<f64>,
+    /// Whether diffraction is left out of the samples.
+    peak_apart: bool,
 }
 
 /// The measurement on the sphere of equal volume that a plan's method is judged by.
-fn sphere_check(
-    plan: &Plan,
+fn sphere_check<'p>(
+    plan: &'p Plan,
     index: Complex64,
     size_parameter: f64,
     treatment: Treatment,
-) -> SphereCheck<'_> {
-    let Treatment { interference, filter } = treatment;
+    assignment: Option<&Assignment>,
+) -> SphereCheck<'p> {
+    let by_planes = || assignment.map_or_else(Vec::new, |a| a.orders_of(Method::Planes));
+    let Treatment { interference, filter, peak_apart } = treatment;
     SphereCheck {
         index,
         size_parameter,
         orders: &plan.orders,
         complete: plan.complete,
         diffraction: plan.forward_diffraction,
+        peak_apart,
         tolerance: plan.tolerance,
         method: match plan.engine {
             Engine::Patches => CheckedMethod::Patches { rings: plan.rings, interference, filter },
-            _ => CheckedMethod::Meridians { deformed: !plan.shape.rotational_symmetry() },
+            _ => CheckedMethod::Meridians {
+                deformed: !plan.shape.rotational_symmetry(),
+                by_planes: by_planes(),
+            },
         },
         thresholds: plan.thresholds,
     }
@@ -243,7 +253,8 @@ fn worth(
     size_parameter: f64,
     treatment: Treatment,
 ) -> Result<ErrorEstimate, SeriesError> {
-    let sphere = sphere_check(plan, index, size_parameter, treatment).errors()?;
+    let assignment = far_field.assignment();
+    let sphere = sphere_check(plan, index, size_parameter, treatment, assignment).errors()?;
     let tracer = plan.tracer(index, size_parameter);
     Ok(far_field.error_estimate(&tracer, &sphere, treatment.interference))
 }

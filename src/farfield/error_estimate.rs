@@ -99,7 +99,8 @@ impl FarField<'_> {
             sphere.squares
         } else {
             spread(sphere, self.silhouette().deformation())
-        };
+        }
+        .map(|square| square + sphere.extinction);
         let Source::Planes(planes, fallback) = &self.source else {
             let found = self.patch_intensities(&theta, PATCH_AZIMUTH, true, interference, None);
             return ErrorEstimate::of_bands(&sphere_squares, &band_squares(&found), sphere);
@@ -184,7 +185,7 @@ mod tests {
     fn bright_bands_count_in_one_mean_and_all_alike_in_the_other() {
         let (mut squares, mut intensities) = ([0.01; ERROR_BANDS], [1e-6; ERROR_BANDS]);
         (squares[5], intensities[5]) = (0.25, 1e3);
-        let sphere = SphereErrors { squares, intensities, straight_back: 4.0 };
+        let sphere = SphereErrors { squares, intensities, straight_back: 4.0, extinction: 0.0 };
         let estimate = ErrorEstimate::of_bands(&squares, &intensities, &sphere);
         assert_eq!(estimate.straight_back, 2.0);
         assert!((estimate.weighted - 0.5).abs() < 1e-6);

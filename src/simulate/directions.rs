@@ -53,7 +53,7 @@ pub fn scatter_with_sections(
     }
     let sections = CrossSections::new(plan, &far_field, index, absorbed);
     sections.validate()?;
-    let treatment = Treatment { interference: true, filter };
+    let treatment = Treatment { interference: true, filter, peak_apart: false };
     let worth = worth(&far_field, plan, index, size_parameter, treatment)?;
     Ok(Seen { amplitudes: finite(amplitudes, directions)?, sections, worth })
 }
