@@ -122,7 +122,8 @@ impl FarField<'_> {
             (0..theta.len()).map(|i| (amplitudes[i] + missed[i]).s11() - found[i]).collect();
         let inside: Vec<f64> = rays.iter().zip(&waves).map(|(r, w)| (*r + *w).s11()).collect();
         let doubt = self.doubt_of_deformation();
-        let most = if self.planes_in_place_of_waves() { f64::INFINITY } else { median(&inside) };
+        let most =
+            if self.planes_in_place_of_waves() { f64::INFINITY } else { self.doubtful(&inside) };
         wrong.iter_mut().zip(&inside).for_each(|(w, s)| *w += doubt * doubt * s.min(most));
         let (intensities, off) = (band_squares(&found), band_squares(&off));
         let squares = std::array::from_fn(|band| {
@@ -143,6 +144,16 @@ impl FarField<'_> {
         let deformation = self.silhouette().deformation();
         let by = self.assignment().map(|assignment| assignment.thresholds());
         by.map_or(0.0, |by| by.doubt_of_deformation(self.size_parameter(), deformation))
+    }
+
+    /// Brightness up to which waves are doubtful: their median where a body is slightly deformed, more and more up
+    /// to their brightest where its bows are no longer those of a sphere.
+    fn doubtful(&self, inside: &[f64]) -> f64 {
+        let brightest = inside.iter().copied().fold(0.0, f64::max);
+        let deformation = self.silhouette().deformation();
+        let by = self.assignment().map(|assignment| assignment.thresholds());
+        let strange = by.map_or(0.0, |by| (deformation / by.strange_deformation).powi(4).min(1.0));
+        median(inside) * (1.0 - strange) + brightest * strange
     }
 
     /// Whether scattering planes serve transmitted light where partial waves should, since the radial lines
