@@ -34,7 +34,7 @@ mod error;
 mod header;
 
 pub use cross_sections::CrossSections;
-pub use directions::{finite, scatter, scatter_with_sections};
+pub use directions::{Seen, finite, scatter, scatter_with_sections};
 pub use energy::adds_up;
 pub use error::SimulateError;
 pub use header::header;
@@ -166,9 +166,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
-        let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-        let tracer = plan.tracer(index, size_parameter);
-        far_field.error_estimate(&tracer, &squares, treatment.interference)
+        worth(&far_field, plan, index, size_parameter, treatment)?
     } else {
         ErrorEstimate::UNKNOWN
     };
@@ -233,20 +231,21 @@ fn sphere_check(
     }
 }
 
-/// Relative error of the intensity from 10° to 170°, weighted by intensity, that rays have on the sphere
-/// of equal volume.
+/// The estimate of its error that a far field makes of itself, from what the method is worth on the sphere of
+/// equal volume.
 ///
 /// # Errors
 /// What the exact series refuse.
-pub fn worth_of_rays(
+fn worth(
+    far_field: &FarField,
     plan: &Plan,
     index: Complex64,
     size_parameter: f64,
+    treatment: Treatment,
 ) -> Result<ErrorEstimate, SeriesError> {
-    let treatment = Treatment { interference: true, filter: None };
-    let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-    let far_field = far_field(plan, index, size_parameter, &[0.0], plan.forward_diffraction);
-    Ok(far_field.error_estimate(&plan.tracer(index, size_parameter), &squares, true))
+    let sphere = sphere_check(plan, index, size_parameter, treatment).errors()?;
+    let tracer = plan.tracer(index, size_parameter);
+    Ok(far_field.error_estimate(&tracer, &sphere, treatment.interference))
 }
 
 /// Trace, and make the far field ready for columns and directions, with forward diffraction joined

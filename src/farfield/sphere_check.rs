@@ -68,6 +68,17 @@ pub enum CheckedMethod {
     },
 }
 
+/// What a method errs by on the sphere of equal volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SphereErrors {
+    /// Squared relative error of the intensity in each band.
+    pub squares: [f64; ERROR_BANDS],
+    /// Sum of the squared intensities (`S11`) that the sphere has at the samples of each band.
+    pub intensities: [f64; ERROR_BANDS],
+    /// Squared relative error of the intensity straight back, where a glory may be narrower than its band.
+    pub straight_back: f64,
+}
+
 /// Scattering angles in the bands, ascending; steps of an irrational ratio, so that no sample keeps to
 /// the knots of an interpolation.
 pub(super) fn samples() -> Vec<f64> {
@@ -85,16 +96,17 @@ pub(super) fn samples() -> Vec<f64> {
 }
 
 impl SphereCheck<'_> {
-    /// Squared relative error of the intensity in each band.
+    /// Errors in each band, and the light that they are relative to.
     ///
     /// # Errors
     /// What the series refuse.
-    pub fn squares(&self) -> Result<[f64; ERROR_BANDS], SeriesError> {
-        let theta = samples();
+    pub fn errors(&self) -> Result<SphereErrors, SeriesError> {
+        let mut theta = samples();
+        theta.push(PI);
         let exact = self.exact(&theta)?;
         let found = self.found(&theta);
         let by_means = matches!(self.method, CheckedMethod::Patches { interference: false, .. });
-        Ok(std::array::from_fn(|band| {
+        let squares = std::array::from_fn(|band| {
             let of = |v: &[f64]| v[band * SAMPLES..(band + 1) * SAMPLES].to_vec();
             let (found, exact) = (of(&found), of(&exact));
             if by_means {
@@ -103,7 +115,13 @@ impl SphereCheck<'_> {
             }
             let off: f64 = found.iter().zip(&exact).map(|(f, e)| (f - e).powi(2)).sum();
             off / exact.iter().map(|e| e * e).sum::<f64>()
-        }))
+        });
+        // rays are brighter on a larger sphere as its area is
+        let larger = (self.size_parameter / self.sphere().0).powi(4);
+        let intensities = band_squares(&exact).map(|sum| sum * larger);
+        let back = theta.len() - 1;
+        let straight_back = (found[back] / exact[back] - 1.0).powi(2);
+        Ok(SphereErrors { squares, intensities, straight_back })
     }
 
     /// Size parameter and index of the sphere that is computed.
@@ -168,13 +186,23 @@ fn off_spoke(all: usize, spokes: usize) -> f64 {
     share * 2.0 * PI / spokes as f64
 }
 
-/// Bands mixed with their neighbours as far as bows move about the azimuth: by about twice the
-/// deformation of the outline.
-pub(super) fn spread(squares: &[f64; ERROR_BANDS], deformation: f64) -> [f64; ERROR_BANDS] {
+/// Sums of squared intensities by band.
+pub(super) fn band_squares(found: &[f64]) -> [f64; ERROR_BANDS] {
+    std::array::from_fn(|band| {
+        found[band * SAMPLES..(band + 1) * SAMPLES].iter().map(|s| s * s).sum()
+    })
+}
+
+/// Squared relative errors where bows move about the azimuth, by about twice the deformation of the outline: what
+/// a band and its neighbours miss together, over the light that they have together. What a dark neighbour
+/// misses is little beside the light of a bright one.
+pub(super) fn spread(sphere: &SphereErrors, deformation: f64) -> [f64; ERROR_BANDS] {
     let reach = (deformation / HALF_BAND).round() as usize;
     std::array::from_fn(|band| {
-        let near = &squares[band.saturating_sub(reach)..(band + reach + 1).min(ERROR_BANDS)];
-        near.iter().map(|s| s.min(1.0)).sum::<f64>() / near.len() as f64
+        let near = band.saturating_sub(reach)..(band + reach + 1).min(ERROR_BANDS);
+        let missed: f64 =
+            near.clone().map(|i| sphere.squares[i].min(1.0) * sphere.intensities[i]).sum();
+        missed / sphere.intensities[near].iter().sum::<f64>()
     })
 }
 
@@ -199,10 +227,14 @@ mod tests {
 
     #[test]
     fn neighbours_share_where_the_outline_is_deformed() {
-        let mut one = [0.0; ERROR_BANDS];
-        one[20] = 0.9;
-        assert_eq!(spread(&one, 0.0), one);
-        let shared = spread(&one, 2.0 * HALF_BAND);
+        let [squares, intensities] = [[0.0; ERROR_BANDS], [1.0; ERROR_BANDS]];
+        let mut sphere = SphereErrors { squares, intensities, straight_back: 0.0 };
+        sphere.squares[20] = 0.9;
+        assert_eq!(spread(&sphere, 0.0), sphere.squares);
+        let shared = spread(&sphere, 2.0 * HALF_BAND);
         assert!((shared[18] - 0.18).abs() < 1e-12 && shared[17] == 0.0);
+        // a band a thousand times as bright does not mind what its neighbour misses
+        sphere.intensities[19] = 1e6;
+        assert!(spread(&sphere, 2.0 * HALF_BAND)[19] < 1e-6);
     }
 }
