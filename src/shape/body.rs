@@ -30,6 +30,17 @@ pub struct Shape {
     pub down: Vec3<f64>,
 }
 
+impl Body {
+    /// Whether the surface is known to have no hollow, which a line might leave and enter again.
+    pub(super) fn is_convex(&self) -> bool {
+        match self {
+            Body::Sphere | Body::Spheroid(_) => true,
+            Body::Raindrop(drop) => drop.is_convex(),
+            Body::Own(_) => false,
+        }
+    }
+}
+
 impl Shape {
     /// A sphere.
     pub fn sphere() -> Self {

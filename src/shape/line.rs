@@ -103,10 +103,36 @@ impl<'a, T: Scalar> Line<'a, T> {
             // Quadratic convergence: one more step reaches rounding.
             if change <= 1e-9 * t.size() {
                 let (f, slope) = self.at(t);
-                return t - f / (slope - f / t);
+                let found = t - f / (slope - f / t);
+                return if self.leaves_first(found) { found } else { self.first_exit(longest) };
             }
         }
-        t
+        if T::REAL { self.first_exit(longest) } else { t }
+    }
+
+    /// Whether the line leaves the body at a root, not having left it before: a hollow of the surface
+    /// may lie between.
+    fn leaves_first(&self, root: T) -> bool {
+        if !T::REAL || self.shape.body.is_convex() {
+            return true;
+        }
+        let outside = |share: f64| self.at(root * share).0.re() > 0.0;
+        self.at(root).1.re() > 0.0 && ![0.25, 0.5, 0.75, 0.9].into_iter().any(outside)
+    }
+
+    /// Where the line first leaves the body, by brute force.
+    fn first_exit(&self, longest: f64) -> T {
+        const POINTS: u32 = 256;
+        const BISECTIONS: u32 = 60;
+        let outside = |t: f64| self.at(T::real(t)).0.re() > 0.0;
+        let place = |k: u32| longest * f64::from(k) / f64::from(POINTS);
+        let beyond = (1..=POINTS).find(|&k| outside(place(k)) && !outside(place(k - 1).max(1e-9)));
+        let (mut low, mut high) = beyond.map_or((0.0, longest), |k| (place(k - 1), place(k)));
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if outside(middle) { high = middle } else { low = middle }
+        }
+        T::real(0.5 * (low + high))
     }
 
     /// The first of the two roots about the point of greatest depth.

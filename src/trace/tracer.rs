@@ -44,7 +44,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The same tracer with the surface's curvature in its Fresnel coefficients (see
-    /// [`crate::optics::Grazing`]): waves near grazing incidence for one size parameter.
+    /// `optics::Grazing`): waves near grazing incidence for one size parameter.
     pub fn with_curved_interface(mut self, size_parameter: f64) -> Self {
         self.interface.curved = Some(size_parameter);
         self

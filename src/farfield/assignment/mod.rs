@@ -1,8 +1,8 @@
 //! Which method stands for which order, why, and how far its wave may be off: the one place that decides.
 //!
 //! Decided first by the scene alone: where few wavelengths fit into a deformed particle, all caustics of
-//! an order lie in one wave zone, and it is a sum over partial waves ([`crate::farfield::partial_waves`]);
-//! else scattering planes serve ([`crate::farfield::azimuth`]). What turns out on trial is an [`Outcome`], a
+//! an order lie in one wave zone, and it is a sum over partial waves ([`crate::farfield::PartialWaves`]);
+//! else scattering planes serve ([`crate::farfield::PlaneSet`]). What turns out on trial is an [`Outcome`], a
 //! value, and [`Assignment::after`] makes the next assignment of it: orders whose planes do not match, or
 //! differ grossly from a second method, go to beams or patches. [`crate::farfield::FarField`] obeys. All
 //! numbers by which this goes are in the [`Thresholds`].
