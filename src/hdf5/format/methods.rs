@@ -1,17 +1,17 @@
 //! By which methods a table was computed: JSON in one attribute of a table, in one text per table of a
 //! sweep.
 
-use super::raw_read::OpenFile;
-use super::raw_write::{Kind, NewDataset, NewFile};
 use super::record::Record;
-use super::{TableError, damaged};
+use crate::hdf5::file::created::{Kind, NewDataset, NewFile};
+use crate::hdf5::file::opened::OpenFile;
+use crate::hdf5::{TableError, damaged};
 use crate::phase_table::MethodRange;
 
 /// The attribute, and the variable of a sweep.
-pub(super) const METHODS: &str = "methods";
+pub const METHODS: &str = "methods";
 
 /// Of one table; nothing where no method is known.
-pub(super) fn write_methods(
+pub fn write_methods(
     file: &NewFile,
     wavelengths: &[f64],
     records: &[Option<Record>],
@@ -23,7 +23,7 @@ pub(super) fn write_methods(
 }
 
 /// Of all tables of a sweep; nothing where none is known.
-pub(super) fn write_swept_methods(
+pub fn write_swept_methods(
     file: &NewFile,
     wavelengths: &[f64],
     records: &[Option<Record>],
@@ -53,10 +53,7 @@ fn text(wavelengths: &[f64], records: &[Option<Record>]) -> String {
 }
 
 /// Of the table at `leading`, its place in a sweep (empty: a table). Tables of older versions have none.
-pub(super) fn read_methods(
-    file: &OpenFile,
-    leading: &[u64],
-) -> Result<Vec<MethodRange>, TableError> {
+pub fn read_methods(file: &OpenFile, leading: &[u64]) -> Result<Vec<MethodRange>, TableError> {
     let text = if leading.is_empty() {
         file.text(METHODS)?.unwrap_or_default()
     } else {

@@ -1,13 +1,15 @@
 //! Writing one table, wavelength by wavelength: memory does not grow with their number.
 
-use super::body::Body;
-use super::circumstances::{write_numbers, write_scalars};
-use super::methods::write_methods;
-use super::output::{Output, WriteOptions};
-use super::raw_write::NewFile;
-use super::record::{Record, write_records};
-use super::schema::{Dimensions, FORMAT, write_root};
-use super::{TableError, estimate_bytes, invalid};
+use super::body::{Body, check_slab};
+use crate::hdf5::file::created::NewFile;
+use crate::hdf5::format::circumstances::{write_numbers, write_scalars};
+use crate::hdf5::format::dimensions::Dimensions;
+use crate::hdf5::format::methods::write_methods;
+use crate::hdf5::format::record::{Record, write_records};
+use crate::hdf5::format::schema::{FORMAT, write_root};
+use crate::hdf5::output::{Output, WriteOptions};
+use crate::hdf5::space::estimate_bytes;
+use crate::hdf5::{TableError, invalid};
 use crate::phase_table::{PhaseTable, Slab, TableHeader};
 use std::path::Path;
 
@@ -98,34 +100,4 @@ pub fn write(path: &Path, table: &PhaseTable, options: WriteOptions) -> Result<(
         writer.write_slab(index, slab)?;
     }
     writer.finish()
-}
-
-/// Refuse a slab that does not fit the header.
-pub(super) fn check_slab(
-    header: &TableHeader,
-    index: usize,
-    slab: &Slab,
-) -> Result<(), TableError> {
-    let axes = &header.axes;
-    let Some(&wavelength) = axes.wavelength.get(index) else {
-        let accepted = format!("the table has {} wavelengths", axes.wavelength.len());
-        return Err(invalid("slab", index, &accepted));
-    };
-    if (slab.wavelength - wavelength).abs() > 1e-9 * wavelength {
-        let accepted = format!("slab {index} is for {wavelength} m");
-        return Err(invalid("wavelength", slab.wavelength, &accepted));
-    }
-    let face = (axes.theta.len(), axes.phi.len());
-    let expected = (header.quantity.elements(), face.0, face.1);
-    if slab.values.dim() != expected {
-        let shape = format!("{:?}", slab.values.dim());
-        return Err(invalid("slab shape", shape, &format!("{expected:?} (elements, theta, phi)")));
-    }
-    match &slab.caustic_order {
-        Some(mask) if mask.dim() != face => {
-            let shape = format!("{:?}", mask.dim());
-            Err(invalid("caustic_order shape", shape, &format!("{face:?} (theta, phi)")))
-        }
-        _ => Ok(()),
-    }
 }

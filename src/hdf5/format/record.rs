@@ -3,16 +3,16 @@
 //! A few numbers per wavelength, kept until the file is finished because the number of orders is
 //! known only then.
 
-use super::TableError;
-use super::raw_write::{Kind, NewDataset, NewFile};
-use super::schema::scale;
+use super::dimensions::scale;
+use crate::hdf5::TableError;
+use crate::hdf5::file::created::{Kind, NewDataset, NewFile};
 use crate::math::digits::degree;
 use crate::phase_table::{ERROR_BANDS, EnergyBudget, MethodPart, Slab, error_theta};
 use num_complex::Complex64;
 
 /// The numbers of one slab.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Record {
+pub struct Record {
     pub index: Complex64,
     pub scattering_cross_section: f64,
     pub extinction_cross_section: f64,
@@ -56,7 +56,7 @@ impl From<&Slab> for Record {
 type Getter<T> = fn(&T) -> f64;
 
 /// Variables that every slab has: name, units, words, value.
-pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
+pub const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
     ("scattering_cross_section", "m2", "scattering cross-section", |r| r.scattering_cross_section),
     ("extinction_cross_section", "m2", "extinction cross-section", |r| r.extinction_cross_section),
     ("asymmetry", "1", "mean cosine of the scattering angle", |r| r.asymmetry),
@@ -80,7 +80,7 @@ pub(super) const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
 ];
 
 /// The same, absent in tables of older versions.
-pub(super) const LATER: [(&str, &str, &str, Getter<Record>); 4] = [
+pub const LATER: [(&str, &str, &str, Getter<Record>); 4] = [
     (
         "error_estimate_by_band",
         "1",
@@ -100,7 +100,7 @@ pub(super) const LATER: [(&str, &str, &str, Getter<Record>); 4] = [
 ];
 
 /// Variables of the energy budget beside the orders.
-pub(super) const ENERGY: [(&str, &str, Getter<EnergyBudget>); 4] = [
+pub const ENERGY: [(&str, &str, Getter<EnergyBudget>); 4] = [
     ("energy_absorbed", "power absorbed", |e| e.absorbed),
     ("energy_totally_reflected", "power still inside by total reflection", |e| e.totally_reflected),
     ("energy_truncated", "power still inside after the last order", |e| e.truncated),
@@ -109,7 +109,7 @@ pub(super) const ENERGY: [(&str, &str, Getter<EnergyBudget>); 4] = [
 
 /// Write all records; `dimensions` are those that run over them (leading ones and wavelength),
 /// `shape` their lengths. Absent records and budgets become NaN.
-pub(super) fn write_records(
+pub fn write_records(
     file: &NewFile,
     records: &[Option<Record>],
     dimensions: &[&NewDataset],
@@ -142,10 +142,10 @@ pub(super) fn write_records(
 }
 
 /// The variable with the stated error by scattering angle.
-pub(super) const BY_DIRECTION: &str = "error_estimate_by_direction";
+pub const BY_DIRECTION: &str = "error_estimate_by_direction";
 
 /// The variable with the share of orders left out by a list.
-pub(super) const LEFT_OUT: &str = "left_out_share";
+pub const LEFT_OUT: &str = "left_out_share";
 
 fn write_errors(
     file: &NewFile,

@@ -1,10 +1,9 @@
 //! What a table has once: radius and sun, the particles as bodies, what was averaged over, the error
 //! asked for. Scalars in a table; in a sweep, along its axes, for each table has its own.
 
-use super::TableError;
-use super::damaged;
-use super::raw_read::OpenFile;
-use super::raw_write::{Kind, NewDataset, NewFile};
+use crate::hdf5::file::created::{Kind, NewDataset, NewFile};
+use crate::hdf5::file::opened::OpenFile;
+use crate::hdf5::{TableError, damaged};
 use crate::math::digits::{degree, tidy};
 use crate::phase_table::{Averaging, Bodies, DiscOfSun, TableHeader};
 
@@ -42,7 +41,7 @@ fn body(header: &TableHeader, value: impl Fn(&Bodies) -> f64) -> f64 {
 }
 
 /// Root attributes of what is the same for all tables of a sweep.
-pub(super) fn write_attributes(file: &NewFile, header: &TableHeader) -> Result<(), TableError> {
+pub fn write_attributes(file: &NewFile, header: &TableHeader) -> Result<(), TableError> {
     file.attribute("averaged_over_sun_disc", header.averaging.sun_disc.name())?;
     file.attribute_integer("averaged_over_sizes", i32::from(header.averaging.sizes))?;
     match &header.bodies {
@@ -54,7 +53,7 @@ pub(super) fn write_attributes(file: &NewFile, header: &TableHeader) -> Result<(
 }
 
 /// The scalars of a table; those of a sweep that are not `swept`, radius and sun.
-pub(super) fn write_scalars(
+pub fn write_scalars(
     file: &NewFile,
     header: &TableHeader,
     swept: impl Fn(&str) -> bool,
@@ -99,7 +98,7 @@ pub(super) fn write_scalars(
 }
 
 /// The numbers of one table (no dimensions), or of all tables of a sweep: NaN where one is absent.
-pub(super) fn write_numbers(
+pub fn write_numbers(
     file: &NewFile,
     headers: &[Option<TableHeader>],
     dimensions: &[&NewDataset],
@@ -118,7 +117,7 @@ pub(super) fn write_numbers(
 }
 
 /// Read bodies, averaging and tolerance of the table at `leading`, its place in a sweep (empty: a table).
-pub(super) fn read_numbers(
+pub fn read_numbers(
     file: &OpenFile,
     leading: &[u64],
 ) -> Result<(Option<Bodies>, Averaging, f64), TableError> {

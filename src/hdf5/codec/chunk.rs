@@ -31,7 +31,7 @@ enum Coding {
 }
 
 /// Turns chunks of `f32` values or bytes into what is stored; keeps its buffers between chunks.
-pub(super) struct ChunkEncoder {
+pub struct ChunkEncoder {
     compressor: Option<Compressor>,
     repeats_pay: f64,
     bit_round: Option<u8>,
@@ -97,7 +97,7 @@ impl ChunkEncoder {
 
 /// Encode `jobs` on all cores and write them in order. Memory is bounded by the encoders; while
 /// one half of them is written, the other half encodes.
-pub(super) fn encode_and_write<J: Sync, E: Send>(
+pub fn encode_and_write<J: Sync, E: Send>(
     encoders: &mut [ChunkEncoder],
     jobs: &[J],
     encode: impl Fn(&mut ChunkEncoder, &J) + Sync,
@@ -126,7 +126,7 @@ pub(super) fn encode_and_write<J: Sync, E: Send>(
 }
 
 /// Encoders for [`encode_and_write`], enough for all cores.
-pub(super) fn encoders(level: u8, bit_round: Option<u8>) -> Vec<ChunkEncoder> {
+pub fn encoders(level: u8, bit_round: Option<u8>) -> Vec<ChunkEncoder> {
     let count = 4 * rayon::current_num_threads().max(1);
     (0..count).map(|_| ChunkEncoder::new(level, bit_round)).collect()
 }

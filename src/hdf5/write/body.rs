@@ -3,11 +3,12 @@
 //! Chunks of a slab are rounded, shuffled and deflated on all cores and then handed to the library
 //! in a fixed order, so that the file does not depend on which core was faster.
 
-use super::TableError;
-use super::chunk::{ChunkEncoder, encode_and_write, encoders};
-use super::output::WriteOptions;
-use super::raw_write::{Chunking, Kind, NewDataset, NewFile};
-use super::schema::{Dimensions, chunk_corners, chunk_shape, values_name};
+use crate::hdf5::codec::chunk::{ChunkEncoder, encode_and_write, encoders};
+use crate::hdf5::file::created::{Chunking, Kind, NewDataset, NewFile};
+use crate::hdf5::format::dimensions::{Dimensions, chunk_corners, chunk_shape};
+use crate::hdf5::format::schema::values_name;
+use crate::hdf5::output::WriteOptions;
+use crate::hdf5::{TableError, invalid};
 use crate::phase_table::{Quantity, Slab, TableHeader};
 use ndarray::{Array2, ArrayView2};
 
@@ -15,7 +16,7 @@ use ndarray::{Array2, ArrayView2};
 const COORDINATES: &str = "angle_from_antisolar_point radius_um sun_elevation solar_zenith_angle";
 
 /// The values of a table or a sweep, being written.
-pub(super) struct Body {
+pub struct Body {
     values: NewDataset,
     caustic: Option<NewDataset>,
     layout: Layout,
@@ -210,5 +211,31 @@ impl Layout {
                 None => line.iter_mut().zip(source.iter().skip(column)).for_each(|(a, b)| *a = *b),
             }
         }
+    }
+}
+
+/// Refuse a slab that does not fit the header.
+pub fn check_slab(header: &TableHeader, index: usize, slab: &Slab) -> Result<(), TableError> {
+    let axes = &header.axes;
+    let Some(&wavelength) = axes.wavelength.get(index) else {
+        let accepted = format!("the table has {} wavelengths", axes.wavelength.len());
+        return Err(invalid("slab", index, &accepted));
+    };
+    if (slab.wavelength - wavelength).abs() > 1e-9 * wavelength {
+        let accepted = format!("slab {index} is for {wavelength} m");
+        return Err(invalid("wavelength", slab.wavelength, &accepted));
+    }
+    let face = (axes.theta.len(), axes.phi.len());
+    let expected = (header.quantity.elements(), face.0, face.1);
+    if slab.values.dim() != expected {
+        let shape = format!("{:?}", slab.values.dim());
+        return Err(invalid("slab shape", shape, &format!("{expected:?} (elements, theta, phi)")));
+    }
+    match &slab.caustic_order {
+        Some(mask) if mask.dim() != face => {
+            let shape = format!("{:?}", mask.dim());
+            Err(invalid("caustic_order shape", shape, &format!("{face:?} (theta, phi)")))
+        }
+        _ => Ok(()),
     }
 }

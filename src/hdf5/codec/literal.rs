@@ -15,13 +15,13 @@ const RUN_LENGTH: usize = 258;
 /// Number of symbols.
 const SYMBOLS: usize = 286;
 /// What a block takes beside its words, bytes.
-pub(super) const HEADER_BYTES: f64 = 158.0;
+pub const HEADER_BYTES: f64 = 158.0;
 /// Order in which the lengths of the code-length code stand (RFC 1951, 3.2.7).
 const LENGTH_ORDER: [u32; 19] = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15];
 
 /// Append one non-final block with the bytes of `data`, then an empty stored block, so that the
 /// stream goes on at a byte.
-pub(super) fn append_block(data: &[u8], out: &mut Vec<u8>) {
+pub fn append_block(data: &[u8], out: &mut Vec<u8>) {
     let lengths = code_lengths(&histogram(data));
     let words = code_words(&lengths);
     let mut bits = BitWriter { buffer: 0, count: 0, out };

@@ -23,7 +23,7 @@ const PIECE: usize = 1 << 20;
 
 /// The heaps of an open file.
 #[derive(Clone, Debug)]
-pub(super) struct Heaps {
+pub struct Heaps {
     file: Arc<File>,
     /// What a look through the whole file found, once it was needed.
     all: Arc<OnceLock<std::result::Result<(), String>>>,
