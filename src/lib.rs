@@ -61,7 +61,7 @@ pub mod export;
 pub mod farfield;
 
 pub mod plan;
-pub mod tabulate;
+mod tabulate;
 
 pub mod simulate;
 

@@ -16,13 +16,15 @@
 
 mod averaging;
 mod bodies;
+mod invalid;
 mod methods;
+mod plain;
 mod validate;
 
 pub use averaging::{Averaging, DiscOfSun};
 pub use bodies::Bodies;
+pub use invalid::InvalidTable;
 pub use methods::{FormulaPart, MethodPart, MethodRange};
-pub use validate::InvalidTable;
 
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -51,6 +53,10 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// The words of scenes and files.
+    pub const WORDS: [(&str, Self); 2] =
+        [("phase_function", Self::PhaseFunction), ("mueller", Self::Mueller)];
+
     /// Number of values per direction.
     pub fn elements(self) -> usize {
         match self {
@@ -70,6 +76,12 @@ pub enum ForwardPeak {
     Point,
     /// Diffraction left out; its share of the cross-section is recorded.
     Separate,
+}
+
+impl ForwardPeak {
+    /// The words of scenes and files.
+    pub const WORDS: [(&str, Self); 3] =
+        [("cell_average", Self::CellAverage), ("point", Self::Point), ("separate", Self::Separate)];
 }
 
 /// Where the light went that met the particle, as fractions of the power on its silhouette.

@@ -6,13 +6,12 @@ mod commands;
 mod cpu_time;
 mod failure;
 mod interrupt;
-mod plan;
 mod show;
 
-use args::scene_flags;
 use clap::{Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, rays, render, scatter, table, validate,
+    batch, bench, compare, export, info, lee, material, plan, rays, render, scatter, table,
+    validate,
 };
 use failure::{Failure, Result};
 use std::process::ExitCode;

@@ -31,6 +31,7 @@ mod columns;
 mod diagram;
 #[cfg(feature = "hdf5")]
 pub mod file;
+mod largest_first;
 mod raindrops;
 pub(crate) mod sampling;
 mod wavelengths;
@@ -53,6 +54,7 @@ use crate::simulate::SimulateError;
 use crate::size_distribution::log_normal_sample;
 use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
+use largest_first::largest_first;
 use num_complex::Complex64;
 use rayon::prelude::*;
 use sampling::{AXIS_LIMIT, Band, Sampling, SamplingNeed, TRANSITION, grid};
@@ -179,22 +181,11 @@ where
 {
     check(request, beats)?;
     let index = request.medium.index(MIDDLE).map_err(LeeError::from)?.re;
-    let mut order: Vec<usize> = (0..request.radii.len()).collect();
-    order.sort_by(|&i, &j| request.radii[j].total_cmp(&request.radii[i]));
-    let mut columns = order
-        .par_iter()
-        .with_max_len(1)
-        .map(|&i| {
-            let sampling = Sampling::new(&request.need(request.radii[i], index, beats));
-            Ok((i, column(request, request.radii[i], (&sampling, beats), prepare, &scatter)?))
-        })
-        .collect::<Result<Vec<_>, E>>()?;
-    columns.sort_by_key(|(i, _)| *i);
-    Ok(Diagram {
-        radii: request.radii.clone(),
-        theta: request.theta.clone(),
-        xyz: columns.into_iter().map(|(_, column)| column).collect(),
-    })
+    let xyz = largest_first(&request.radii, |radius| {
+        let sampling = Sampling::new(&request.need(radius, index, beats));
+        column(request, radius, (&sampling, beats), prepare, &scatter)
+    })?;
+    Ok(Diagram { radii: request.radii.clone(), theta: request.theta.clone(), xyz })
 }
 
 /// Where the index that stands for the whole visible is taken.

@@ -26,10 +26,11 @@ mod rays;
 mod series;
 mod size;
 
-pub use rays::{Doubt, RayDiffraction, RayRequest, rays};
+pub use rays::{RayDiffraction, RayRequest, rays};
 pub use series::{DebyeTerms, debye, lorenz_mie};
 pub use size::{Size, SizeConflict};
 
+use crate::farfield::ErrorEstimate;
 use crate::fault::{Blame, Fault};
 use crate::optics::AmplitudeMatrix;
 use crate::plan::PlanError;
@@ -63,8 +64,8 @@ pub struct Scattering {
     pub diffraction_included: bool,
     /// What a sum over Debye's terms from the first on leaves out.
     pub remainder: Option<Remainder>,
-    /// Where rays hardly serve.
-    pub doubt: Option<Doubt>,
+    /// How far intensities by rays may be from the truth.
+    pub worth: Option<ErrorEstimate>,
 }
 
 /// What a sum over Debye's terms leaves out.

@@ -28,7 +28,7 @@ pub fn lorenz_mie(request: &Request) -> Result<Scattering, SeriesError> {
         efficiencies: sphere.efficiencies(),
         diffraction_included: true,
         remainder: None,
-        doubt: None,
+        worth: None,
     })
 }
 
@@ -62,7 +62,7 @@ pub fn debye(request: &Request, terms: &DebyeTerms) -> Result<Scattering, Series
         }
     });
     let efficiencies = Sphere::new(request.size_parameter, request.index)?.efficiencies();
-    Ok(Scattering { amplitudes, efficiencies, diffraction_included, remainder, doubt: None })
+    Ok(Scattering { amplitudes, efficiencies, diffraction_included, remainder, worth: None })
 }
 
 fn diagonal(pairs: Vec<(Complex64, Complex64)>) -> Vec<AmplitudeMatrix> {

@@ -16,12 +16,10 @@ pub mod angular;
 mod behind;
 pub mod debye;
 mod debye_error;
-pub mod even_angles;
-pub mod lanes;
+pub(crate) mod even_angles;
+pub(crate) mod lanes;
 pub mod lorenz_mie;
 pub mod mean;
-mod mean_nodes;
-mod mean_sum;
 mod stretch;
 pub mod table;
 

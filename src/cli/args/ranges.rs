@@ -2,7 +2,7 @@
 //!
 //! Axes of scenes (`FROM:TO:COUNT` or a list) are [`gonio::scene::Grid`]s.
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 
 /// Shares of a step by which rounding may miss the last value: 380:780:0.1 shall hold 780.
 const ROUNDING: (f64, f64) = (1e-12, 1e-9);

@@ -1,7 +1,7 @@
 //! `gonio batch`: many tables, on one machine or many.
 
 use crate::cli::args::memory::MemoryFlag;
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::{Args, Subcommand};
 use gonio::batch::{BatchPlan, Event, PlannedTable, Selection, ShardStatus, Sweep};
 use gonio::fault::Blame;

@@ -1,21 +1,11 @@
-//! Means over drop sizes and over a band of wavelengths, with a stated error.
-//!
-//! The integrand has ever narrower resonances; equal steps in x converge to it only as 1/steps
-//! (a gamma distribution about x = 114 needs 5·10⁵ sizes for 1e-4). So for spheres that have narrow
-//! resonances the Debye series is cut behind an order Q: up to there the intensity is band-limited
-//! in x by the longest path, and the rule of equal steps has no error once the step resolves that
-//! path, whatever the number of steps; the orders behind the cut enter by their mean power
-//! (`behind.rs`), absorption without its beats. Q grows until the difference to Q/2 says that the
-//! error is met.
-//!
-//! Small spheres have no narrow resonances, and too few waves for orders to average out: they enter
-//! with their exact coefficients on Gauss panels, halved until they agree (`mean_nodes.rs`).
+//! The mean itself: which spheres are summed, how finely, and when that is exact enough.
 
-use super::SeriesError;
-use super::mean_nodes::{Line, ZoneError};
-use super::mean_sum::{Summed, exact, fine_and_coarse};
-use crate::fault::{Blame, Fault};
-use crate::medium::{Medium, MediumError};
+use super::error::{MAX_STEPS, MeanError};
+use super::nodes::Line;
+use super::sum::{Summed, exact, fine_and_coarse};
+use super::value::Mean;
+use crate::medium::Medium;
+use crate::series::SeriesError;
 use crate::size_distribution::SizeDistribution;
 use std::f64::consts::PI;
 
@@ -36,84 +26,10 @@ pub struct Ensemble<'a> {
     pub accept_unmet: bool,
 }
 
-/// Why an average cannot be taken.
-#[derive(Debug, thiserror::Error)]
-pub enum MeanError {
-    /// A size or an index that the series does not accept.
-    #[error(transparent)]
-    Series(#[from] SeriesError),
-    /// A wavelength outside the data.
-    #[error(transparent)]
-    Medium(#[from] MediumError),
-    /// More spheres than anybody would wait for.
-    #[error(
-        "the average over sizes or wavelengths from size parameter {from:.0} to {to:.0} needs \
-         {steps:.1e} spheres: accepted are at most {MAX_STEPS:e}; take a narrower distribution, \
-         smaller particles or a larger tolerance"
-    )]
-    TooLong {
-        /// Least size parameter.
-        from: f64,
-        /// Largest size parameter.
-        to: f64,
-        /// Number of spheres.
-        steps: f64,
-    },
-    /// The error asked for is out of reach.
-    #[error(
-        "the average over sizes or wavelengths did not converge: relative error {reached:.1e} with \
-         {spheres} spheres, asked for {asked:e}; take a larger tolerance, or have \
-         the table marked (model.allow_unmet_tolerance = true, --allow-unmet-tolerance)"
-    )]
-    NotMet {
-        /// The tolerance.
-        asked: f64,
-        /// The least error that was reached.
-        reached: f64,
-        /// Spheres of the last attempt.
-        spheres: usize,
-    },
-}
-
-impl Blame for MeanError {
-    fn fault(&self) -> Fault {
-        match self {
-            MeanError::Series(error) => error.fault(),
-            MeanError::Medium(error) => error.fault(),
-            MeanError::TooLong { .. } => Fault::Input,
-            MeanError::NotMet { .. } => Fault::Run,
-        }
-    }
-}
-
-/// Mean per particle.
-#[derive(Clone, Debug)]
-pub struct Mean {
-    /// S11, S12, S33, S34 by angle as areas per solid angle, m²/sr.
-    pub elements: Vec<[f64; 4]>,
-    /// Scattering cross-section, m².
-    pub scattering: f64,
-    /// Absorption cross-section, m².
-    pub absorption: f64,
-    /// Extinction by the optical theorem on the mean amplitudes straight ahead, m²: scattering and
-    /// absorption by another way.
-    pub forward_extinction: f64,
-    /// Mean cosine of the scattering angle.
-    pub asymmetry: f64,
-    /// Relative error: the largest of that of S11, root mean square over all angles, of scattering
-    /// and of absorption, estimated from half the cut and from panels twice as wide; and the share of the
-    /// light in the tails of the distribution, which is left out.
-    pub error: f64,
-    /// Spheres that were solved.
-    pub spheres: usize,
-}
-
 /// Order of the first cut at a tolerance of 1e-4, its least and its most.
 const CUT: (f64, f64, f64) = (28.0, 8.0, 256.0);
 /// Most orders before the cut.
 const MAX_CUT: u32 = 1 << 14;
-/// Most spheres of one average.
-const MAX_STEPS: f64 = 1e7;
 /// Most halvings of the panels.
 const MAX_LEVEL: u32 = 12;
 /// Share of the light in the neglected tails of the distribution, in units of the tolerance.
@@ -322,15 +238,6 @@ impl Ensemble<'_> {
     }
 }
 
-impl From<ZoneError> for MeanError {
-    fn from(error: ZoneError) -> Self {
-        match error {
-            ZoneError::Series(error) => error.into(),
-            ZoneError::Medium(error) => error.into(),
-        }
-    }
-}
-
 impl Compared {
     /// The difference of the two in units of a total at the angles of the comparison.
     fn error(&self, total: &Summed) -> f64 {
@@ -359,73 +266,11 @@ impl Compared {
     }
 }
 
-impl Mean {
-    fn new(total: Summed, angles: usize, error: f64, spheres: usize) -> Mean {
-        let mut elements = total.elements;
-        elements.truncate(angles);
-        Mean {
-            elements,
-            scattering: total.scattering,
-            absorption: total.absorption,
-            forward_extinction: total.extinction,
-            asymmetry: total.forward / total.scattering,
-            error,
-            spheres,
-        }
-    }
-
-    fn scaled(mut self, factor: f64) -> Mean {
-        self.elements.iter_mut().flatten().for_each(|value| *value *= factor);
-        self.scattering *= factor;
-        self.absorption *= factor;
-        self.forward_extinction *= factor;
-        self.error *= factor;
-        self
-    }
-
-    fn plus(mut self, other: &Mean) -> Mean {
-        let pairs = self.elements.iter_mut().flatten().zip(other.elements.iter().flatten());
-        pairs.for_each(|(sum, value)| *sum += value);
-        let scattering = self.scattering + other.scattering;
-        self.asymmetry =
-            (self.asymmetry * self.scattering + other.asymmetry * other.scattering) / scattering;
-        self.scattering = scattering;
-        self.absorption += other.absorption;
-        self.forward_extinction += other.forward_extinction;
-        self.error += other.error;
-        self.spheres += other.spheres;
-        self
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::series::lorenz_mie::Sphere;
     use num_complex::Complex64;
-
-    fn mean(scattering: f64, asymmetry: f64) -> Mean {
-        Mean {
-            elements: vec![[scattering, 0.1, 0.2, 0.3]; 2],
-            scattering,
-            absorption: 0.5 * scattering,
-            forward_extinction: 1.5 * scattering,
-            asymmetry,
-            error: 0.01,
-            spheres: 3,
-        }
-    }
-
-    /// Areas add up, the asymmetry is weighted by what is scattered.
-    #[test]
-    fn means_add_up() {
-        let sum = mean(1.0, 0.8).plus(&mean(3.0, 0.4).scaled(2.0));
-        assert_eq!((sum.scattering, sum.absorption, sum.spheres), (7.0, 3.5, 6));
-        assert_eq!(sum.forward_extinction, 10.5);
-        assert!((sum.asymmetry - (0.8 + 6.0 * 0.4) / 7.0).abs() < 1e-15);
-        assert!((sum.error - 0.03).abs() < 1e-15 && sum.elements[1][0] == 7.0);
-        assert!((sum.elements[0][3] - 0.9).abs() < 1e-15);
-    }
 
     /// One size in a band so narrow that nothing changes in it is one sphere: `dC/dΩ = S11/k²`.
     #[test]

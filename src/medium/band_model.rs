@@ -72,7 +72,7 @@ impl BandModel {
 
     /// The dye at fraction 1, tabulated every nanometre from 300 to 900 nm; at the ends the bands
     /// are far below any other number in the program.
-    pub(in crate::medium) fn dye(&self) -> Result<Dye, MediumError> {
+    pub(super) fn dye(&self) -> Result<Dye, MediumError> {
         let wavelength: Vec<f64> = (300..=900).map(|nm| f64::from(nm) / 1e9).collect();
         let k: Vec<f64> = wavelength.iter().map(|&w| self.extinction(w)).collect();
         let absorption = Absorption::new(&wavelength, &k, Tails::Taper)?;

@@ -10,12 +10,12 @@
 //! mean power of the rest. Of the latter, one pass serves the mean and the coarser one it is compared
 //! with, which takes every second sphere and half as many orders.
 
-use super::angular::{self, AngleSet};
-use super::behind::{Products, Waves};
-use super::debye::{Cut, DebyeSeries};
-use super::lorenz_mie::{Sphere, sums};
-use super::{SeriesError, checked_term_count};
 use crate::math::cosine_series::{self, CosineSeries};
+use crate::series::angular::{self, AngleSet};
+use crate::series::behind::{Products, Waves};
+use crate::series::debye::{Cut, DebyeSeries};
+use crate::series::lorenz_mie::{Sphere, sums};
+use crate::series::{SeriesError, checked_term_count};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;

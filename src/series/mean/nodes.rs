@@ -5,10 +5,10 @@
 //! enter with the Debye series cut behind an order, by the rule of equal steps. Between the two, and
 //! between cuts, one fades into the other, so that neither sees an edge.
 
-use super::mean_sum::Node;
-use super::{SeriesError, checked_term_count};
+use super::sum::Node;
 use crate::math::gauss_legendre;
 use crate::medium::{Medium, MediumError};
+use crate::series::{SeriesError, checked_term_count};
 use crate::size_distribution::SizeDistribution;
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
@@ -94,11 +94,17 @@ impl Rise {
     }
 }
 
+/// How much brighter a sphere of a tail may be by its first resonances than by its size: those of dense small
+/// spheres stand far above the light of the bell below them (n = 3.84, normal law about x = 0.63: 11 times).
+fn resonance(index: Complex64) -> f64 {
+    (index.norm() / 1.5).powi(4).max(1.0)
+}
+
 impl Line<'_> {
     fn stretches(&self, tail: f64) -> Vec<Stretch> {
         match self {
-            Line::Sizes { sizes, wavelength, .. } => {
-                let stretches = sizes.stretches(tail, TAU / wavelength);
+            Line::Sizes { sizes, wavelength, index, .. } => {
+                let stretches = sizes.stretches(tail / resonance(*index), TAU / wavelength);
                 let stretch = |(from, to)| Stretch { from, to, step: sizes.has_step((from, to)) };
                 stretches.into_iter().map(stretch).collect()
             }

@@ -1,8 +1,8 @@
 //! `gonio plan`: what a scene would compute, by which method, what is skipped and why.
 
-use super::Result;
-use super::cpu_time::CpuTime;
-use super::scene_flags::SceneFlags;
+use crate::cli::args::scene_flags::SceneFlags;
+use crate::cli::cpu_time::CpuTime;
+use crate::cli::failure::Result;
 use clap::Args;
 use gonio::phase_table::Slab;
 use gonio::plan::{Engine, Plan, PlannedRange, Symmetry};
