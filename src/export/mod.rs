@@ -36,6 +36,7 @@
 
 mod atmosphere;
 pub mod average;
+#[cfg(feature = "pictures")]
 mod colours;
 pub mod csv;
 #[cfg(feature = "pictures")]

@@ -43,11 +43,6 @@ impl DirectionGrid {
         self.theta.len() * self.phi.len()
     }
 
-    /// The table has one azimuth and stands for all.
-    pub fn is_rotational(&self) -> bool {
-        self.phi.len() == 1
-    }
-
     /// The samples around a direction (radians), or nothing where the table does not reach.
     pub fn corners(&self, theta: f64, phi: f64) -> Option<Corners> {
         let (t, ft) = locate(&self.theta, self.even_theta, theta)?;

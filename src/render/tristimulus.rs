@@ -3,7 +3,7 @@
 use super::directions::DirectionGrid;
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::phase_table::{Axes, PhaseTable};
-use crate::sun_disc::{DiscPoints, smooth_over_sun};
+use crate::sun_disc::smooth_over_sun;
 use rayon::prelude::*;
 
 /// XYZ (in sr⁻¹: 1 would be the illuminant's white) over the directions of a table.
@@ -82,7 +82,8 @@ impl Tristimulus {
 
     /// Mean over the directions of the sun's disc around (θ, φ), rings weighted alike (build one
     /// per ring with `mu` for limb darkening). Directions beyond the table are left out.
-    pub fn over_disc(&self, disc: &DiscPoints, theta: f64, phi: f64) -> [f64; 3] {
+    #[cfg(feature = "pictures")]
+    pub fn over_disc(&self, disc: &crate::sun_disc::DiscPoints, theta: f64, phi: f64) -> [f64; 3] {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
         for ring in 0..disc.ring.len() {
             for (t, p) in disc.around(ring, theta, phi) {

@@ -27,7 +27,7 @@ fn curves(table: &PhaseTable) -> Vec<Curve> {
     let mut chosen: Vec<usize> = vec![count / 8, count / 2, count - 1 - count / 8];
     chosen.sort_by(|&i, &j| table.slabs[i].wavelength.total_cmp(&table.slabs[j].wavelength));
     chosen.dedup();
-    let halves: &[(f64, &'static str)] = if grid.is_rotational() {
+    let halves: &[(f64, &'static str)] = if grid.phi.len() == 1 {
         &[(0.0, "")]
     } else {
         &[(0.0, ", up (φ = 0°)"), (std::f64::consts::PI, ", down (φ = 180°)")]
