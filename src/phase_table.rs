@@ -55,7 +55,15 @@ pub enum Quantity {
 impl Quantity {
     /// The words of scenes and files.
     pub const WORDS: [(&str, Self); 2] =
-        [("phase_function", Self::PhaseFunction), ("mueller", Self::Mueller)];
+        [(Self::PhaseFunction.word(), Self::PhaseFunction), (Self::Mueller.word(), Self::Mueller)];
+
+    /// The word of scenes and files.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::PhaseFunction => "phase_function",
+            Self::Mueller => "mueller",
+        }
+    }
 
     /// Number of values per direction.
     pub fn elements(self) -> usize {
@@ -80,8 +88,20 @@ pub enum ForwardPeak {
 
 impl ForwardPeak {
     /// The words of scenes and files.
-    pub const WORDS: [(&str, Self); 3] =
-        [("cell_average", Self::CellAverage), ("point", Self::Point), ("separate", Self::Separate)];
+    pub const WORDS: [(&str, Self); 3] = [
+        (Self::CellAverage.word(), Self::CellAverage),
+        (Self::Point.word(), Self::Point),
+        (Self::Separate.word(), Self::Separate),
+    ];
+
+    /// The word of scenes and files.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::CellAverage => "cell_average",
+            Self::Point => "point",
+            Self::Separate => "separate",
+        }
+    }
 }
 
 /// Where the light went that met the particle, as fractions of the power on its silhouette.

@@ -4,7 +4,7 @@ use super::circumstances::write_attributes;
 use crate::hdf5::TableError;
 use crate::hdf5::file::created::NewFile;
 use crate::hdf5::output::WriteOptions;
-use crate::phase_table::{ForwardPeak, Quantity, TableHeader};
+use crate::phase_table::{Quantity, TableHeader};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Root attribute `format` of a table.
@@ -32,18 +32,7 @@ pub const ELEMENTS: [&str; 16] = [
 
 /// Name of the variable that holds the values.
 pub fn values_name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::PhaseFunction => "phase_function",
-        Quantity::Mueller => "mueller",
-    }
-}
-
-pub fn forward_peak_name(forward_peak: ForwardPeak) -> &'static str {
-    match forward_peak {
-        ForwardPeak::CellAverage => "cell_average",
-        ForwardPeak::Point => "point",
-        ForwardPeak::Separate => "separate",
-    }
+    quantity.word()
 }
 
 /// Root attributes of tables and sweeps.
@@ -74,7 +63,7 @@ pub fn write_root(
     file.attribute("quantity", values_name(header.quantity))?;
     file.attribute("method", &header.method)?;
     file.attribute("shape", &header.shape)?;
-    file.attribute("forward_peak", forward_peak_name(header.forward_peak))?;
+    file.attribute("forward_peak", header.forward_peak.word())?;
     file.attribute_integer("rotational_symmetry", i32::from(header.rotational_symmetry))?;
     if let Some(bits) = options.bit_round {
         file.attribute_integer("bit_round", i32::from(bits))?;

@@ -2,7 +2,7 @@
 
 use crate::hdf5::file::opened::{OpenDataset, OpenFile};
 use crate::hdf5::format::circumstances::read_numbers;
-use crate::hdf5::format::schema::{FORMAT_VERSION, forward_peak_name, values_name};
+use crate::hdf5::format::schema::FORMAT_VERSION;
 use crate::hdf5::{TableError, damaged, foreign};
 use crate::phase_table::{Averaging, Axes, ForwardPeak, Quantity, TableHeader};
 
@@ -30,14 +30,14 @@ pub fn read_header(file: &OpenFile) -> Result<TableHeader, TableError> {
         |name: &str, value: &str| damaged(path, &format!("{name} = {value:?} is unknown"));
 
     let quantity_text = text("quantity")?;
-    let quantity = [Quantity::PhaseFunction, Quantity::Mueller]
+    let quantity = Quantity::WORDS
         .into_iter()
-        .find(|quantity| values_name(*quantity) == quantity_text)
+        .find_map(|(word, quantity)| (word == quantity_text).then_some(quantity))
         .ok_or_else(|| unknown("quantity", &quantity_text))?;
     let peak_text = text("forward_peak")?;
-    let forward_peak = [ForwardPeak::CellAverage, ForwardPeak::Point, ForwardPeak::Separate]
+    let forward_peak = ForwardPeak::WORDS
         .into_iter()
-        .find(|peak| forward_peak_name(*peak) == peak_text)
+        .find_map(|(word, peak)| (word == peak_text).then_some(peak))
         .ok_or_else(|| unknown("forward_peak", &peak_text))?;
 
     let axes = Axes {
