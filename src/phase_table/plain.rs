@@ -2,6 +2,7 @@
 //!
 //! ```
 //! use gonio::phase_table::{Axes, Quantity, Slab, TableHeader};
+//! use num_complex::Complex64;
 //! use std::f64::consts::PI;
 //!
 //! // a sphere that scatters a third of what it takes evenly into all directions
@@ -9,7 +10,7 @@
 //! let axes = Axes { wavelength: vec![5e-7], theta, phi: vec![0.0] };
 //! let header = TableHeader::of_sphere(1e-6, axes, Quantity::PhaseFunction);
 //! let values = ndarray::Array3::from_elem((1, 181, 1), (0.25 / PI) as f32);
-//! let slab = Slab::plain((5e-7, (1.33, 0.01).into()), values, [1e-12, 3e-12], 0.0);
+//! let slab = Slab::plain((5e-7, Complex64::new(1.33, 0.01)), values, [1e-12, 3e-12], 0.0);
 //! assert!(slab.validate(&header, 0.0).is_ok());
 //! ```
 
