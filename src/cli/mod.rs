@@ -12,7 +12,8 @@ mod show;
 use args::scene_flags;
 use clap::{Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, rays, render, scatter, table, validate,
+    batch, bench, compare, export, info, lee, material, radar, rays, render, scatter, table,
+    validate,
 };
 use failure::{Failure, Result};
 use std::process::ExitCode;
@@ -38,6 +39,7 @@ enum Command {
     Table(table::TableArgs),
     Scatter(scatter::ScatterArgs),
     Rays(rays::RaysArgs),
+    Radar(radar::RadarArgs),
     Plan(plan::PlanArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
@@ -68,6 +70,7 @@ fn run(command: Command) -> Result<()> {
         Command::Table(args) => table::run(args),
         Command::Scatter(args) => scatter::run(args),
         Command::Rays(args) => rays::run(args),
+        Command::Radar(args) => radar::run(args),
         Command::Plan(args) => plan::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),

@@ -107,7 +107,14 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
         asymmetry: (shadow * fates.forward_momentum + straight) / q_sca,
     };
     let diffraction_included = diffraction;
-    Ok(Scattering { amplitudes, efficiencies, diffraction_included, remainder: None, doubt })
+    Ok(Scattering {
+        amplitudes,
+        efficiencies,
+        diffraction_included,
+        error_estimate: None,
+        remainder: None,
+        doubt,
+    })
 }
 
 /// What becomes of the light on the shadow, by rays.

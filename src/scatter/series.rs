@@ -27,6 +27,7 @@ pub fn lorenz_mie(request: &Request) -> Result<Scattering, SeriesError> {
         amplitudes: diagonal(sphere.amplitudes_parallel(&request.theta)),
         efficiencies: sphere.efficiencies(),
         diffraction_included: true,
+        error_estimate: None,
         remainder: None,
         doubt: None,
     })
@@ -62,7 +63,14 @@ pub fn debye(request: &Request, terms: &DebyeTerms) -> Result<Scattering, Series
         }
     });
     let efficiencies = Sphere::new(request.size_parameter, request.index)?.efficiencies();
-    Ok(Scattering { amplitudes, efficiencies, diffraction_included, remainder, doubt: None })
+    Ok(Scattering {
+        amplitudes,
+        efficiencies,
+        diffraction_included,
+        error_estimate: None,
+        remainder,
+        doubt: None,
+    })
 }
 
 fn diagonal(pairs: Vec<(Complex64, Complex64)>) -> Vec<AmplitudeMatrix> {

@@ -24,6 +24,7 @@ mod mean_nodes;
 mod mean_sum;
 mod stretch;
 pub mod table;
+pub mod tmatrix;
 
 use crate::fault::{Blame, Fault};
 use num_complex::Complex64;

@@ -107,6 +107,11 @@ impl Shape {
         self.is_sphere() || self.down.x.abs() < 1e-12
     }
 
+    /// The sun's elevation (radians) that the axis was laid for.
+    pub fn sun_elevation(&self) -> f64 {
+        self.down.z.atan2(-self.down.x)
+    }
+
     /// True when the body is a sphere, by whatever kind it is described.
     pub fn is_sphere(&self) -> bool {
         match &self.body {

@@ -14,6 +14,7 @@ use crate::medium::read::{agf, csv_table, refractive_index_info};
 use crate::medium::solution::{Dye, Solution};
 use crate::medium::spec::{MediumSpec, NamedSpec, has_ending};
 use crate::medium::water::daimon::Daimon;
+use crate::medium::water::microwave::MicrowaveWater;
 use num_complex::Complex64;
 use std::path::Path;
 use std::sync::Arc;
@@ -58,6 +59,11 @@ impl NamedSpec {
         let name = library::canonical(&self.name)?;
         self.refuse_foreign_conditions(&name)?;
         let temperature = self.temperature_c.unwrap_or(20.0) + 273.15;
+        if let Some(model) = MicrowaveWater::by_name(&name) {
+            let medium = Medium::MicrowaveWater { model, temperature };
+            medium.check_conditions()?;
+            return Ok(medium);
+        }
         let medium = match name.as_str() {
             "water" => match self.density_kg_m3 {
                 Some(density) => Medium::WaterOfDensity { temperature, density },
@@ -86,7 +92,8 @@ impl NamedSpec {
 
     /// Refuses a condition that the medium does not depend on, rather than ignore it.
     fn refuse_foreign_conditions(&self, name: &str) -> Result<(), MediumError> {
-        let water = ["water", "sea-water", "water-daimon"].contains(&name);
+        let water = ["water", "sea-water", "water-daimon"].contains(&name)
+            || MicrowaveWater::by_name(name).is_some();
         let foreign = [
             ("temperature_c", self.temperature_c, water),
             ("density_kg_m3", self.density_kg_m3, name == "water"),

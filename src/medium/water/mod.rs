@@ -6,6 +6,7 @@
 
 mod absorption;
 pub(super) mod daimon;
+pub(super) mod microwave;
 pub(super) mod sea;
 
 use crate::medium::error::{MediumError, check_range, invalid};

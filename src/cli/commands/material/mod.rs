@@ -6,7 +6,7 @@ mod figure;
 mod listing;
 mod transform;
 
-use crate::cli::args::ranges::{Wavelengths, wavelengths};
+use crate::cli::args::ranges::{Wavelengths, frequencies, wavelengths};
 use crate::cli::show::{notes, plot};
 use crate::cli::{Failure, Result};
 use clap::Args;
@@ -34,6 +34,10 @@ pub struct MaterialArgs {
     #[arg(long, value_name = "NM", value_parser = wavelengths, requires = "name",
           conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     wavelength_nm: Option<Wavelengths>,
+    /// Frequencies in place of wavelengths: as those
+    #[arg(long, value_name = "GHZ", value_parser = frequencies, requires = "name",
+          conflicts_with_all = ["wavelength_nm", "list", "from_abbe", "kramers_kronig"])]
+    frequency_ghz: Option<Wavelengths>,
     /// Temperature of water (default 20)
     #[arg(long, value_name = "C", allow_negative_numbers = true, requires = "name",
           conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
@@ -84,7 +88,8 @@ const AFTER_HELP: &str = "Examples:
   gonio material --kramers-kronig k.csv --background 1.33 --method analytic";
 
 /// Runs the command.
-pub fn run(args: MaterialArgs) -> Result<()> {
+pub fn run(mut args: MaterialArgs) -> Result<()> {
+    args.wavelength_nm = args.wavelength_nm.or(args.frequency_ghz.take());
     if args.list {
         let entries = list()?;
         return emit(&args, listing::text(&entries), listing::json(&entries));
