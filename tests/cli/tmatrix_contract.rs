@@ -156,7 +156,7 @@ fn a_radar_sees_a_drop() {
         ("radar --band Q --diameter-mm 1", "S, C, X, Ku, Ka, W"),
         ("radar --band X", "--diameter-mm"),
         ("radar --diameter-mm 1", "--frequency-ghz"),
-        ("radar --band X --diameter-mm 20", "raindrop"),
+        ("radar --band X --diameter-mm 20", "drop model"),
         ("radar --band X --marshall-palmer-mm-h -1", "1e-3 to 1000"),
         ("radar --band X --diameter-mm 1 --shape sphere --axis-ratio 0.9", "only --shape spheroid"),
         ("radar --band X --diameter-mm 1 --temperature-c 90", "temperature"),

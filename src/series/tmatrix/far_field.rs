@@ -169,9 +169,10 @@ impl Scattered {
                 for n in first..=self.top {
                     let weight = power_of_i(-(n as i64) - 1) * (gamma(n) / (4.0 * PI).sqrt());
                     let (pi, tau) = (side * angular.pi[n], angular.tau[n]);
-                    for light in 0..2 {
-                        let a = weight * waves.magnetic[n][light];
-                        let b = weight * Complex64::I * waves.electric[n][light];
+                    let lights = waves.magnetic[n].iter().zip(&waves.electric[n]);
+                    for (light, (magnetic, electric)) in lights.enumerate() {
+                        let a = weight * magnetic;
+                        let b = weight * Complex64::I * electric;
                         ring[0][light] += a * Complex64::I * pi + b * tau;
                         ring[1][light] += b * Complex64::I * pi - a * tau;
                     }
@@ -282,8 +283,9 @@ fn turned(about_axis: &[(i64, OrderWaves)], m: i64, top: usize, cos: f64) -> Ord
         // The light's x and y point against θ̂ and φ̂: half a turn about the light.
         let half_turn = if m % 2 == 0 { 1.0 } else { -1.0 };
         let factor = half_turn * sign(m) * sign(*order);
-        for n in m.abs().max(order.abs()).max(1) as usize..=top {
-            let share = factor * d[n];
+        let first = m.abs().max(order.abs()).max(1) as usize;
+        for (n, d) in d.iter().enumerate().skip(first) {
+            let share = factor * d;
             for light in 0..2 {
                 out.magnetic[n][light] += waves.magnetic[n][light] * share;
                 out.electric[n][light] += waves.electric[n][light] * share;

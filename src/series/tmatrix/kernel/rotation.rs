@@ -20,8 +20,8 @@ pub(in crate::series::tmatrix) fn wigner(
     let (product, m2, p2) = ((m * primed) as f64, (m * m) as f64, (primed * primed) as f64);
     let (mut before, mut now) = (0.0, start(m, primed, cos));
     let mut root = 0.0;
-    for n in first as usize..=top {
-        out[n] = now;
+    for (n, to) in out.iter_mut().enumerate().take(top + 1).skip(first as usize) {
+        *to = now;
         let (k, next) = (n as f64, (n + 1) as f64);
         let next_root = ((next * next - m2) * (next * next - p2)).sqrt();
         let after = if n == 0 {
