@@ -3,7 +3,7 @@
 //! `cargo bench --bench throughput`; figures are rates, not verdicts.
 
 use gonio::farfield::FarFieldSettings;
-use gonio::farfield::patches::sheets;
+use gonio::farfield::sheets;
 use gonio::farfield::{Direction, FarField};
 use gonio::shape::{RaindropModel, Shape};
 use gonio::trace::{Tracer, Wavefront};
@@ -43,7 +43,7 @@ fn patch_rate(shape: &Shape, index: Complex64, size: f64) {
     let tracer = Tracer::new(shape, index, 1.0, 3);
     let wavefront = Wavefront::corners(shape, 200, 400, 0.0123);
     let start = Instant::now();
-    let sheets = sheets::sheets(&tracer, &wavefront, &[0, 1, 2, 3]);
+    let sheets = sheets(&tracer, &wavefront, &[0, 1, 2, 3]);
     let far_field = FarField::patches(shape, sheets, size);
     println!("patches of 4 orders, traced and sorted: {:.2} s", start.elapsed().as_secs_f64());
     let golden = 2.399963229728653;

@@ -4,8 +4,8 @@
 //! `cargo run --release --example huygens_fresnel -- sphere|raindrop|spheroid`
 
 use gonio::farfield::FarFieldSettings;
-use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
+use gonio::farfield::{HuygensFresnel, Wave};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};

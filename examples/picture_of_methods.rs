@@ -5,10 +5,7 @@
 //! picture in `docs/` must be the one that would be drawn.
 
 use gonio::farfield::assignment::{Assignment, Method, Thresholds};
-use gonio::farfield::azimuth::plane_set::{Piece, PlaneSet};
-use gonio::farfield::branch::knots::Kind;
-use gonio::farfield::forward::diffraction::ForwardDiffraction;
-use gonio::farfield::{FarField, FarFieldSettings};
+use gonio::farfield::{FarField, FarFieldSettings, ForwardDiffraction, Kind, Piece, PlaneSet};
 use gonio::shape::Shape;
 use gonio::trace::Tracer;
 use std::f64::consts::{PI, TAU};

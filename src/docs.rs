@@ -5,9 +5,7 @@
 #[doc = include_str!("../docs/tutorials.md")]
 pub mod tutorials {}
 
-#[doc = include_str!("../docs/theory.md")]
-#[doc = ""]
-#[doc = include_str!("../docs/methods.svg")]
+#[doc = include_str!(concat!(env!("OUT_DIR"), "/theory.md"))]
 pub mod theory {}
 
 #[doc = include_str!("../docs/glossary.md")]

@@ -62,7 +62,7 @@ pub mod farfield;
 pub mod radar;
 
 pub mod plan;
-pub mod tabulate;
+mod tabulate;
 
 pub mod simulate;
 

@@ -16,13 +16,15 @@
 
 mod averaging;
 mod bodies;
+mod invalid;
 mod methods;
+mod plain;
 mod validate;
 
 pub use averaging::{Averaging, DiscOfSun};
 pub use bodies::Bodies;
+pub use invalid::InvalidTable;
 pub use methods::{FormulaPart, MethodPart, MethodRange};
-pub use validate::InvalidTable;
 
 use ndarray::{Array2, Array3};
 use num_complex::Complex64;
@@ -51,6 +53,18 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// The words of scenes and files.
+    pub const WORDS: [(&str, Self); 2] =
+        [(Self::PhaseFunction.word(), Self::PhaseFunction), (Self::Mueller.word(), Self::Mueller)];
+
+    /// The word of scenes and files.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::PhaseFunction => "phase_function",
+            Self::Mueller => "mueller",
+        }
+    }
+
     /// Number of values per direction.
     pub fn elements(self) -> usize {
         match self {
@@ -70,6 +84,24 @@ pub enum ForwardPeak {
     Point,
     /// Diffraction left out; its share of the cross-section is recorded.
     Separate,
+}
+
+impl ForwardPeak {
+    /// The words of scenes and files.
+    pub const WORDS: [(&str, Self); 3] = [
+        (Self::CellAverage.word(), Self::CellAverage),
+        (Self::Point.word(), Self::Point),
+        (Self::Separate.word(), Self::Separate),
+    ];
+
+    /// The word of scenes and files.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::CellAverage => "cell_average",
+            Self::Point => "point",
+            Self::Separate => "separate",
+        }
+    }
 }
 
 /// Where the light went that met the particle, as fractions of the power on its silhouette.

@@ -35,11 +35,12 @@ mod header;
 mod t_matrix;
 
 pub use cross_sections::CrossSections;
-pub use directions::{finite, scatter, scatter_with_sections};
+pub use directions::{Seen, finite, scatter, scatter_with_sections};
 pub use energy::adds_up;
 pub use error::SimulateError;
 pub use header::header;
 
+use crate::farfield::assignment::{Assignment, Method};
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{ErrorEstimate, FarField, FarFieldSettings};
@@ -148,6 +149,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         interference: scene.interference,
         filter: (scene.diffraction == Diffraction::Gaussian)
             .then(|| gaussian_filter::standard_deviation(plan.radius)),
+        peak_apart: scene.forward_peak == ForwardPeak::Separate,
     };
     let left_out = left_out(plan, &budget) * far_field.silhouette().area() / sections.scattering();
     let methods = far_field.assignment().cloned();
@@ -170,9 +172,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
-        let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-        let tracer = plan.tracer(index, size_parameter);
-        far_field.error_estimate(&tracer, &squares, treatment.interference)
+        worth(&far_field, plan, index, size_parameter, treatment)?
     } else {
         ErrorEstimate::UNKNOWN
     };
@@ -212,45 +212,55 @@ struct Treatment {
     interference: bool,
     /// Standard deviation of the Gaussian filter, radians.
     filter: Option<f64>,
+    /// Whether diffraction is left out of the samples.
+    peak_apart: bool,
 }
 
 /// The measurement on the sphere of equal volume that a plan's method is judged by.
-fn sphere_check(
-    plan: &Plan,
+fn sphere_check<'p>(
+    plan: &'p Plan,
     index: Complex64,
     size_parameter: f64,
     treatment: Treatment,
-) -> SphereCheck<'_> {
-    let Treatment { interference, filter } = treatment;
+    assignment: Option<&Assignment>,
+) -> SphereCheck<'p> {
+    let by_planes = || assignment.map_or_else(Vec::new, |a| a.orders_of(Method::Planes));
+    let Treatment { interference, filter, peak_apart } = treatment;
     SphereCheck {
         index,
         size_parameter,
         orders: &plan.orders,
         complete: plan.complete,
         diffraction: plan.forward_diffraction,
+        peak_apart,
         tolerance: plan.tolerance,
         method: match plan.engine {
             Engine::Patches => CheckedMethod::Patches { rings: plan.rings, interference, filter },
-            _ => CheckedMethod::Meridians { deformed: !plan.shape.rotational_symmetry() },
+            _ => CheckedMethod::Meridians {
+                deformed: !plan.shape.rotational_symmetry(),
+                by_planes: by_planes(),
+            },
         },
         thresholds: plan.thresholds,
     }
 }
 
-/// Relative error of the intensity from 10° to 170°, weighted by intensity, that rays have on the sphere
-/// of equal volume.
+/// The estimate of its error that a far field makes of itself, from what the method is worth on the sphere of
+/// equal volume.
 ///
 /// # Errors
 /// What the exact series refuse.
-pub fn worth_of_rays(
+fn worth(
+    far_field: &FarField,
     plan: &Plan,
     index: Complex64,
     size_parameter: f64,
+    treatment: Treatment,
 ) -> Result<ErrorEstimate, SeriesError> {
-    let treatment = Treatment { interference: true, filter: None };
-    let squares = sphere_check(plan, index, size_parameter, treatment).squares()?;
-    let far_field = far_field(plan, index, size_parameter, &[0.0], plan.forward_diffraction);
-    Ok(far_field.error_estimate(&plan.tracer(index, size_parameter), &squares, true))
+    let assignment = far_field.assignment();
+    let sphere = sphere_check(plan, index, size_parameter, treatment, assignment).errors()?;
+    let tracer = plan.tracer(index, size_parameter);
+    Ok(far_field.error_estimate(&tracer, &sphere, treatment.interference))
 }
 
 /// Trace, and make the far field ready for columns and directions, with forward diffraction joined

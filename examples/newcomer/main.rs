@@ -25,7 +25,7 @@ theta_deg = { from = 0, to = 180, count = 361 }
 azimuth_deg = { from = 0, to = 360, count = 13 }
 ";
 const AXIS_RATIO: f64 = 0.95;
-const RADIUS: f64 = 0.05e-3;
+const RADIUS: f64 = 0.015e-3;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // With the exponent 2 it is a spheroid, which gonio has: that is the independent truth.

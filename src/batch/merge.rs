@@ -1,8 +1,8 @@
 //! All shards of a plan in one file, in the order of the plan.
 
 use super::plan::{BatchPlan, PlannedTable};
+use super::range::tidy;
 use super::shard::ShardStatus;
-use super::sweep::tidy;
 use super::{BatchError, invalid};
 use crate::hdf5::{
     AxisValues, SweepAxis, SweepCoordinate, SweepWriter, TableError, TableReader, WriteOptions,

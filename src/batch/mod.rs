@@ -24,6 +24,7 @@
 
 mod merge;
 mod plan;
+mod range;
 mod run;
 mod shard;
 mod sweep;

@@ -2,7 +2,7 @@
 
 use super::sweep::Sweep;
 use super::{BatchError, invalid};
-use crate::hdf5::FORMAT_VERSION;
+use crate::hdf5::format::schema::FORMAT_VERSION;
 use crate::pending_file::PendingFile;
 use crate::scene::{Scene, SceneFile, SceneText};
 use serde::{Deserialize, Serialize};

@@ -1,38 +1,37 @@
 //! Processor time of this process, which does not depend on what else the machine does.
 
-use std::time::Instant;
-
-/// Ticks per second of the times in `/proc` (fixed for programs, whatever the kernel's own clock).
-const TICKS: f64 = 100.0;
+use std::time::{Duration, Instant};
 
 /// A stopwatch of processor time; of the clock on the wall where the system does not tell.
 pub struct CpuTime {
-    ticks: Option<f64>,
+    spent: Option<Duration>,
     wall: Instant,
 }
 
 impl CpuTime {
     pub fn start() -> Self {
-        Self { ticks: ticks(), wall: Instant::now() }
+        Self { spent: spent(), wall: Instant::now() }
     }
 
     /// Seconds since the start, of all threads together.
     pub fn seconds(&self) -> f64 {
-        match (self.ticks, ticks()) {
-            (Some(before), Some(now)) => (now - before) / TICKS,
+        match (self.spent, spent()) {
+            (Some(before), Some(now)) => now.saturating_sub(before).as_secs_f64(),
             _ => self.wall.elapsed().as_secs_f64() * rayon::current_num_threads() as f64,
         }
     }
 }
 
-/// Ticks spent so far, in the program and for it.
-fn ticks() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // the name, in brackets, may hold anything; utime and stime are fields 14 and 15
-    let rest = text.rsplit_once(')')?.1;
-    let mut fields = rest.split_whitespace().skip(11);
-    let mut field = || fields.next()?.parse::<f64>().ok();
-    Some(field()? + field()?)
+/// Time spent so far, in the program and for it.
+#[cfg(unix)]
+fn spent() -> Option<Duration> {
+    use rustix::time::{ClockId, clock_gettime};
+    clock_gettime(ClockId::ProcessCPUTime).try_into().ok()
+}
+
+#[cfg(not(unix))]
+fn spent() -> Option<Duration> {
+    None
 }
 
 #[cfg(test)]

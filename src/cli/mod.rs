@@ -6,13 +6,11 @@ mod commands;
 mod cpu_time;
 mod failure;
 mod interrupt;
-mod plan;
 mod show;
 
-use args::scene_flags;
 use clap::{Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, radar, rays, render, scatter, table,
+    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, table,
     validate,
 };
 use failure::{Failure, Result};

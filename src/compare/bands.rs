@@ -1,7 +1,7 @@
 //! Relative error by band of scattering angle and by polarisation, over all wavelengths and
 //! azimuths that two tables share.
 
-use super::Curve;
+use super::curve::Curve;
 use crate::phase_table::{PhaseTable, Slab};
 use serde::Serialize;
 

@@ -1,6 +1,7 @@
 //! The curves of the page: data for uPlot, and the polar view as SVG.
 
-use super::{Case, CaseReport, Curve};
+use super::curve::Curve;
+use super::{Case, CaseReport};
 use crate::math::digits::to_digits;
 use crate::phase_table::PhaseTable;
 use maud::{Markup, html};

@@ -4,7 +4,7 @@
 //! are a pair only within half the distance to the reference's next maximum: what lies further off
 //! is another maximum, and is listed as one without a partner.
 
-use super::Curve;
+use super::curve::Curve;
 use crate::phase_table::PhaseTable;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};

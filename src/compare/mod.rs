@@ -51,13 +51,12 @@ pub mod page;
 pub mod speed;
 
 pub use bands::{BANDS, BandReport};
-pub use curve::Curve;
 pub use energy::EnergyReport;
 pub use maxima::{Maxima, Maximum};
 
 use crate::fault::{Blame, Fault};
 use crate::phase_table::PhaseTable;
-use curve::nearest;
+use curve::{Curve, nearest};
 use serde::Serialize;
 
 /// Why two tables cannot be compared.

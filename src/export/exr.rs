@@ -2,16 +2,20 @@
 //!
 //! A square, azimuthal equidistant about the antisolar point: the distance from the centre is the
 //! angle from that point (180° − θ), up to `radius` at the edges; up is the upper side (φ = 0).
-//! Linear sRGB, P·(sunlight) with equal-energy light of Y = 1 per sr⁻¹; 32-bit float, uncompressed
-//! scan lines (OpenEXR file layout, openexr.com/en/latest/OpenEXRFileLayout.html).
+//! Linear sRGB, P·(sunlight) with equal-energy light of Y = 1 per sr⁻¹; 32-bit float, scan lines in
+//! zlib blocks of 16, which every reader knows.
 
 use super::ExportError;
 use super::colours::Colours;
 use crate::color::xyz_to_linear_srgb;
 use crate::optics::Polarisation;
 use crate::phase_table::PhaseTable;
+use exr::prelude::{
+    Blocks, Compression, Encoding, Image, LineOrder, SpecificChannels, Vec2, WritableImage,
+};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::io::Cursor;
 
 /// The bytes of the map, `size` × `size` pixels, `radius` in radians, seen through a filter that is
 /// turned with the scattering plane of each pixel, or none.
@@ -37,54 +41,58 @@ pub fn antisolar_map(
         let phi = (-right).atan2(up);
         xyz_to_linear_srgb(colours.xyz(PI - angle, phi)).map(|value| value as f32)
     };
-    let rows: Vec<Vec<[f32; 3]>> =
-        (0..size).into_par_iter().map(|y| (0..size).map(|x| pixel(x, y)).collect()).collect();
-    Ok(encode(&rows, size))
+    let row = |y: u32| (0..size).map(move |x| (x, y));
+    let places = (0..size).into_par_iter().flat_map_iter(row);
+    let pixels: Vec<[f32; 3]> = places.map(|(x, y)| pixel(x, y)).collect();
+    Ok(encode(&pixels, size as usize)?)
 }
 
-/// Magic number, header, table of line offsets, lines; channels in alphabetical order.
-fn encode(rows: &[Vec<[f32; 3]>], size: u32) -> Vec<u8> {
-    const FLOAT: i32 = 2;
-    let mut file = vec![0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
-    let mut attribute = |name: &str, kind: &str, value: &[u8]| {
-        file.extend_from_slice(name.as_bytes());
-        file.push(0);
-        file.extend_from_slice(kind.as_bytes());
-        file.push(0);
-        file.extend_from_slice(&(value.len() as i32).to_le_bytes());
-        file.extend_from_slice(value);
+/// The file of `size` × `size` pixels, row by row.
+fn encode(pixels: &[[f32; 3]], size: usize) -> exr::error::Result<Vec<u8>> {
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
     };
-    let words = |values: &[i32]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
-    let floats = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
+    let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
+        let [red, green, blue] = pixels[at.y() * size + at.x()];
+        (red, green, blue)
+    });
+    let mut file = Cursor::new(Vec::new());
+    Image::from_encoded_channels((size, size), encoding, channels)
+        .write()
+        .to_buffered(&mut file)?;
+    Ok(file.into_inner())
+}
 
-    let mut channels = Vec::new();
-    for name in ["B", "G", "R"] {
-        channels.extend_from_slice(name.as_bytes());
-        channels.push(0);
-        channels.extend(words(&[FLOAT, 0, 1, 1]));
-    }
-    channels.push(0);
-    let window = words(&[0, 0, size as i32 - 1, size as i32 - 1]);
-    attribute("channels", "chlist", &channels);
-    attribute("compression", "compression", &[0]);
-    attribute("dataWindow", "box2i", &window);
-    attribute("displayWindow", "box2i", &window);
-    attribute("lineOrder", "lineOrder", &[0]);
-    attribute("pixelAspectRatio", "float", &floats(&[1.0]));
-    attribute("screenWindowCenter", "v2f", &floats(&[0.0, 0.0]));
-    attribute("screenWindowWidth", "float", &floats(&[1.0]));
-    file.push(0);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 
-    let line_bytes = 12 * size as usize;
-    let first = file.len() + 8 * rows.len();
-    for line in 0..rows.len() {
-        file.extend_from_slice(&((first + line * (8 + line_bytes)) as u64).to_le_bytes());
-    }
-    for (y, row) in rows.iter().enumerate() {
-        file.extend(words(&[y as i32, line_bytes as i32]));
-        for channel in [2, 1, 0] {
-            row.iter().for_each(|pixel| file.extend_from_slice(&pixel[channel].to_le_bytes()));
+    /// Every bit of every pixel comes back, at its place, by channels of these names.
+    #[test]
+    fn pixels_are_stored_without_loss() {
+        let size = 37;
+        let value = |at: usize| [1.0 / (1 + at) as f32, (at as f32).exp2(), -0.0];
+        let pixels: Vec<[f32; 3]> = (0..size * size).map(value).collect();
+        let bytes = encode(&pixels, size).unwrap();
+        let image = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+            .unwrap();
+        assert_eq!(image.layer_data.size, Vec2(size, size));
+        let channels = &image.layer_data.channel_data.list;
+        let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
+        assert_eq!(names, ["B", "G", "R"]);
+        for (channel, colour) in channels.iter().zip([2, 1, 0]) {
+            let FlatSamples::F32(values) = &channel.sample_data else { panic!("32 bits") };
+            let same = values.iter().zip(&pixels).all(|(a, b)| a.to_bits() == b[colour].to_bits());
+            assert!(same && values.len() == pixels.len(), "channel {}", channel.name);
         }
     }
-    file
 }

@@ -17,9 +17,9 @@ use std::path::Path;
 const PER_CELL: usize = 32;
 
 /// The plugin.
-pub const PLUGIN: &str = include_str!("mitsuba_plugin.py");
+const PLUGIN: &str = include_str!("mitsuba_plugin.py");
 /// A scene that renders the bow.
-pub const SCENE: &str = include_str!("mitsuba_scene.py");
+const SCENE: &str = include_str!("mitsuba_scene.py");
 
 /// The whole folder, its files in place of those of the same names; `samples` per curve of a `tabphase`.
 ///
@@ -48,7 +48,7 @@ pub fn write(
 
 /// `phase.csv`: first line the wavelengths (nm), then per line cos θ (ascending, uniform in θ) and
 /// P11 in sr⁻¹ per wavelength.
-pub fn spectral_table(averaged: &Averaged) -> String {
+fn spectral_table(averaged: &Averaged) -> String {
     let mut text = String::from("cos_theta");
     for curve in &averaged.curves {
         text.push_str(&format!(",{}", curve.wavelength * 1e9));

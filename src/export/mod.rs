@@ -38,6 +38,7 @@ mod atmosphere;
 pub mod average;
 mod colours;
 pub mod csv;
+#[cfg(feature = "pictures")]
 pub mod exr;
 pub mod mitsuba;
 pub mod notes;
@@ -65,6 +66,9 @@ pub enum ExportError {
     #[cfg(feature = "pictures")]
     #[error("picture: {0}")]
     Png(#[from] png::EncodingError),
+    #[cfg(feature = "pictures")]
+    #[error("picture: {0}")]
+    Exr(#[from] ::exr::error::Error),
     #[error(transparent)]
     Table(#[from] TableError),
 }
@@ -77,7 +81,7 @@ impl Blame for ExportError {
             }
             ExportError::Table(error) => error.fault(),
             #[cfg(feature = "pictures")]
-            ExportError::Png(_) => Fault::Run,
+            ExportError::Png(_) | ExportError::Exr(_) => Fault::Run,
         }
     }
 }

@@ -2,13 +2,13 @@
 //!
 //! Which method serves which order is decided in [`assignment`] and nowhere else.
 //! Two ways lead there. The main one follows, for each order, the rays that leave in one scattering plane
-//! ([`deflection`]), cuts them at their landmarks into the segments of a [`branch`] with uniform formulas
-//! at folds, near the rim ([`impact_integral`]) and at the edge of the shadow ([`forward`]), interpolates
-//! them over [`azimuth`] and adds them up over the samples. Orders whose caustics are too disordered for
-//! that are sums of [`gaussian_beams`], and those of small particles of [`partial_waves`]. The other, that
-//! of Sadeghi et al. 2012, is [`patches`]: sheets of rays cut into triangles on the sphere of directions,
-//! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`mod@reference`]
-//! is a brute-force sum that needs no asymptotics; [`sphere_check`] says what the method is worth. [`FarField`] is what the rest of the house uses.
+//! (`deflection`), cuts them at their landmarks into the segments of a `branch` with uniform formulas
+//! at folds, near the rim (`impact_integral`) and at the edge of the shadow (`forward`), interpolates
+//! them over `azimuth` and adds them up over the samples. Orders whose caustics are too disordered for
+//! that are sums of `gaussian_beams`, and those of small particles of `partial_waves`. The other, that
+//! of Sadeghi et al. 2012, is `patches`: sheets of rays cut into triangles on the sphere of directions,
+//! the interference of all that contain a direction, and diffraction by a Gaussian filter. `reference`
+//! is a brute-force sum that needs no asymptotics; `sphere_check` says what the method is worth. [`FarField`] is what the rest of the house uses.
 //!
 //! ```
 //! use gonio::farfield::{FarField, FarFieldSettings};
@@ -31,28 +31,35 @@
 //! ```
 
 pub mod assignment;
-pub mod azimuth;
-pub mod branch;
+mod azimuth;
+mod branch;
 mod column;
 mod cross_check;
-pub mod deflection;
-pub mod direction;
+mod deflection;
+pub(crate) mod direction;
 mod error_estimate;
 mod fallback;
 mod far_field;
-pub mod forward;
-pub mod gaussian_beams;
-pub mod impact_integral;
-pub mod partial_waves;
-pub mod patches;
-pub mod reference;
+pub(crate) mod forward;
+mod gaussian_beams;
+mod impact_integral;
+mod partial_waves;
+pub(crate) mod patches;
+pub(crate) mod reference;
 mod settings;
-pub mod sphere_check;
+pub(crate) mod sphere_check;
 mod wave_field;
 
+pub use azimuth::plane_set::{Piece, PlaneSet};
+pub use branch::knots::Kind;
 pub use column::Column;
 pub use direction::Direction;
 pub use error_estimate::ErrorEstimate;
 pub use far_field::FarField;
+pub use forward::diffraction::ForwardDiffraction;
+pub use gaussian_beams::GaussianBeams;
+pub use partial_waves::PartialWaves;
+pub use patches::sheets::{Sheet, sheets};
+pub use reference::huygens_fresnel::{HuygensFresnel, Wave};
 pub use settings::FarFieldSettings;
 pub use wave_field::{WaveField, waves};

@@ -8,7 +8,7 @@
 //! the series a smaller one with the same absorption along its diameter speaks for it: no error of the
 //! method grows with the size. With a list of orders the truth are their Debye terms, else Lorenz–Mie.
 
-use super::assignment::{Assignment, Thresholds};
+use super::assignment::{Assignment, Outcome, Thresholds};
 use super::far_field::FarField;
 use super::patches::sheets;
 use super::settings::FarFieldSettings;
@@ -41,6 +41,8 @@ pub struct SphereCheck<'a> {
     pub complete: bool,
     /// Whether forward diffraction is part of it.
     pub diffraction: bool,
+    /// Whether a table leaves it out, peak and tails, so that it misses them beyond the peak.
+    pub peak_apart: bool,
     /// Relative error asked for.
     pub tolerance: f64,
     /// What is judged.
@@ -50,12 +52,14 @@ pub struct SphereCheck<'a> {
 }
 
 /// How amplitudes are found, and what is made of them.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum CheckedMethod {
     /// Meridians; small deformed particles have partial waves in their place.
     Meridians {
         /// Whether the particle is no body of revolution about the light.
         deformed: bool,
+        /// Orders that scattering planes serve.
+        by_planes: Vec<u32>,
     },
     /// Patches; without interference means over bands are compared.
     Patches {
@@ -66,6 +70,20 @@ pub enum CheckedMethod {
         /// Standard deviation of the Gaussian filter, radians.
         filter: Option<f64>,
     },
+}
+
+/// What a method errs by on the sphere of equal volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SphereErrors {
+    /// Squared relative error of the intensity in each band.
+    pub squares: [f64; ERROR_BANDS],
+    /// Sum of the squared intensities (`S11`) that the sphere has at the samples of each band.
+    pub intensities: [f64; ERROR_BANDS],
+    /// Squared relative error of the intensity straight back, where a glory may be narrower than its band.
+    pub straight_back: f64,
+    /// Squared relative error of the extinction of a list of orders with diffraction, by which P is normalised;
+    /// 0 where all that matters is summed, which is checked otherwise.
+    pub extinction: f64,
 }
 
 /// Scattering angles in the bands, ascending; steps of an irrational ratio, so that no sample keeps to
@@ -85,16 +103,20 @@ pub(super) fn samples() -> Vec<f64> {
 }
 
 impl SphereCheck<'_> {
-    /// Squared relative error of the intensity in each band.
+    /// Errors in each band, and the light that they are relative to.
     ///
     /// # Errors
     /// What the series refuse.
-    pub fn squares(&self) -> Result<[f64; ERROR_BANDS], SeriesError> {
-        let theta = samples();
+    pub fn errors(&self) -> Result<SphereErrors, SeriesError> {
+        let mut theta = samples();
+        theta.extend([PI, 0.0]);
         let exact = self.exact(&theta)?;
-        let found = self.found(&theta);
+        let (found, found_ahead) = self.found(&theta[..theta.len() - 1]);
+        let exact_ahead = exact.last().map_or(f64::NAN, |(s1, s2)| (s1 + s2).re);
+        let exact: Vec<f64> =
+            exact.iter().map(|(s1, s2)| 0.5 * (s1.norm_sqr() + s2.norm_sqr())).collect();
         let by_means = matches!(self.method, CheckedMethod::Patches { interference: false, .. });
-        Ok(std::array::from_fn(|band| {
+        let squares = std::array::from_fn(|band| {
             let of = |v: &[f64]| v[band * SAMPLES..(band + 1) * SAMPLES].to_vec();
             let (found, exact) = (of(&found), of(&exact));
             if by_means {
@@ -103,7 +125,16 @@ impl SphereCheck<'_> {
             }
             let off: f64 = found.iter().zip(&exact).map(|(f, e)| (f - e).powi(2)).sum();
             off / exact.iter().map(|e| e * e).sum::<f64>()
-        }))
+        });
+        // rays are brighter on a larger sphere as its area is
+        let larger = (self.size_parameter / self.sphere().0).powi(4);
+        let intensities = band_squares(&exact).map(|sum| sum * larger);
+        let back = found.len() - 1;
+        let straight_back = (found[back] / exact[back] - 1.0).powi(2);
+        let part = self.diffraction && !self.peak_apart && !self.complete;
+        let ahead = found_ahead.filter(|_| part);
+        let extinction = ahead.map_or(0.0, |ahead| (ahead / exact_ahead - 1.0).powi(2));
+        Ok(SphereErrors { squares, intensities, straight_back, extinction })
     }
 
     /// Size parameter and index of the sphere that is computed.
@@ -112,49 +143,55 @@ impl SphereCheck<'_> {
         (x, Complex64::new(self.index.re, self.index.im * self.size_parameter / x))
     }
 
-    fn exact(&self, theta: &[f64]) -> Result<Vec<f64>, SeriesError> {
+    fn exact(&self, theta: &[f64]) -> Result<Vec<(Complex64, Complex64)>, SeriesError> {
         let (x, index) = self.sphere();
-        let pairs = if self.complete {
+        Ok(if self.complete {
             Sphere::new(x, index)?.amplitudes_parallel(theta)
         } else {
             let orders = self.orders.iter().map(|&order| Term::Order(order));
             let terms: Vec<Term> =
                 orders.chain(self.diffraction.then_some(Term::Diffraction)).collect();
             DebyeSeries::new(x, index)?.sum_parallel(&terms, theta)
-        };
-        Ok(pairs.into_iter().map(|(s1, s2)| 0.5 * (s1.norm_sqr() + s2.norm_sqr())).collect())
+        })
     }
 
-    fn found(&self, theta: &[f64]) -> Vec<f64> {
+    /// Intensities, and the real part of `S1 + S2` straight ahead where there are amplitudes.
+    fn found(&self, theta: &[f64]) -> (Vec<f64>, Option<f64>) {
         let (x, index) = self.sphere();
+        let diffraction = self.diffraction && !self.peak_apart;
         let shape = Shape::sphere();
         let last = self.orders.iter().copied().max().unwrap_or(0);
         let tracer = Tracer::new(&shape, index, x, last);
-        match self.method {
-            CheckedMethod::Meridians { deformed } => {
+        match &self.method {
+            CheckedMethod::Meridians { deformed, by_planes } => {
                 let tracer = tracer.with_curved_interface(x);
                 let settings = FarFieldSettings {
                     size_parameter: x,
                     orders: self.orders,
                     tolerance: self.tolerance,
-                    diffraction: self.diffraction && self.orders.contains(&0),
+                    diffraction: diffraction && self.orders.contains(&0),
                     checked: false,
                     azimuths: &[0.0],
                 };
                 let (numbers, by) = ([x, self.tolerance], &self.thresholds);
-                let assignment = Assignment::as_if(deformed, &tracer, self.orders, numbers, by);
+                let assignment = Assignment::as_if(*deformed, &tracer, self.orders, numbers, by)
+                    .after(Outcome::RadialLines(by_planes));
                 let far_field = FarField::assigned(&tracer, &settings, assignment);
-                let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, 0.0)).collect();
-                let amplitudes = far_field.scatter(&directions, self.diffraction);
-                amplitudes.iter().map(|s| s.s11()).collect()
+                let directions: Vec<(f64, f64)> =
+                    theta.iter().chain(&[0.0]).map(|&t| (t, 0.0)).collect();
+                let mut amplitudes = far_field.scatter(&directions, diffraction);
+                let ahead = amplitudes.pop().map(|s| (s.s1 + s.s2).re);
+                (amplitudes.iter().map(|s| s.s11()).collect(), ahead)
             }
-            CheckedMethod::Patches { rings, interference, filter } => {
+            &CheckedMethod::Patches { rings, interference, filter } => {
                 let spokes = (2 * rings).min(SPOKES);
                 let wavefront = Wavefront::corners(&shape, rings, spokes, 0.0);
                 let sheets = sheets::sheets(&tracer, &wavefront, self.orders);
                 let far_field = FarField::patches(&shape, sheets, x);
                 let azimuth = off_spoke(2 * rings, spokes);
-                far_field.patch_intensities(theta, azimuth, self.diffraction, interference, filter)
+                let found =
+                    far_field.patch_intensities(theta, azimuth, diffraction, interference, filter);
+                (found, None)
             }
         }
     }
@@ -168,13 +205,22 @@ fn off_spoke(all: usize, spokes: usize) -> f64 {
     share * 2.0 * PI / spokes as f64
 }
 
-/// Bands mixed with their neighbours as far as bows move about the azimuth: by about twice the
-/// deformation of the outline.
-pub(super) fn spread(squares: &[f64; ERROR_BANDS], deformation: f64) -> [f64; ERROR_BANDS] {
+/// Sums of squared intensities by band.
+pub(super) fn band_squares(found: &[f64]) -> [f64; ERROR_BANDS] {
+    std::array::from_fn(|band| {
+        found[band * SAMPLES..(band + 1) * SAMPLES].iter().map(|s| s * s).sum()
+    })
+}
+
+/// Squared relative errors where bows move about the azimuth, by about twice the deformation of the outline: what
+/// a band and its neighbours miss together, over the light that they have together. What a dark neighbour
+/// misses is little beside the light of a bright one.
+pub(super) fn spread(sphere: &SphereErrors, deformation: f64) -> [f64; ERROR_BANDS] {
     let reach = (deformation / HALF_BAND).round() as usize;
     std::array::from_fn(|band| {
-        let near = &squares[band.saturating_sub(reach)..(band + reach + 1).min(ERROR_BANDS)];
-        near.iter().map(|s| s.min(1.0)).sum::<f64>() / near.len() as f64
+        let near = band.saturating_sub(reach)..(band + reach + 1).min(ERROR_BANDS);
+        let missed: f64 = near.clone().map(|i| sphere.squares[i] * sphere.intensities[i]).sum();
+        missed / sphere.intensities[near].iter().sum::<f64>()
     })
 }
 
@@ -199,10 +245,14 @@ mod tests {
 
     #[test]
     fn neighbours_share_where_the_outline_is_deformed() {
-        let mut one = [0.0; ERROR_BANDS];
-        one[20] = 0.9;
-        assert_eq!(spread(&one, 0.0), one);
-        let shared = spread(&one, 2.0 * HALF_BAND);
+        let [squares, intensities] = [[0.0; ERROR_BANDS], [1.0; ERROR_BANDS]];
+        let mut sphere = SphereErrors { squares, intensities, straight_back: 0.0, extinction: 0.0 };
+        sphere.squares[20] = 0.9;
+        assert_eq!(spread(&sphere, 0.0), sphere.squares);
+        let shared = spread(&sphere, 2.0 * HALF_BAND);
         assert!((shared[18] - 0.18).abs() < 1e-12 && shared[17] == 0.0);
+        // a band a thousand times as bright does not mind what its neighbour misses
+        sphere.intensities[19] = 1e6;
+        assert!(spread(&sphere, 2.0 * HALF_BAND)[19] < 1e-6);
     }
 }

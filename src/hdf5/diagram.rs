@@ -2,9 +2,9 @@
 //! scales, so that the same readers open them.
 
 use super::TableError;
+use super::file::created::Kind;
+use super::format::dimensions::scale;
 use super::output::{Output, WriteOptions};
-use super::raw_write::Kind;
-use super::schema::scale;
 use std::path::Path;
 
 /// One axis.

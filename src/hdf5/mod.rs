@@ -26,34 +26,26 @@
 //! ```
 #![doc = include_str!("../../docs/file.md")]
 
-mod body;
-mod chunk;
-mod circumstances;
-mod diagram;
-mod heap;
-mod literal;
-mod methods;
+mod codec;
+pub(crate) mod diagram;
+mod ffi;
+mod file;
+pub(crate) mod format;
+mod guard;
 mod netcdf;
 mod output;
-mod raw_attribute;
-mod raw_id;
-mod raw_read;
-mod raw_write;
-mod reader;
-mod record;
-mod schema;
+mod read;
 mod space;
-mod sweep;
-mod writer;
+mod sweep_axis;
+mod write;
 
-pub use diagram::{DiagramAxis, DiagramValues, write_diagram};
 pub use netcdf::{NetcdfFile, NetcdfValues, NetcdfVariable, write_netcdf};
 pub use output::WriteOptions;
-pub use reader::{TableReader, read};
-pub use schema::FORMAT_VERSION;
-pub use space::{available_bytes, estimate_bytes};
-pub use sweep::{AxisValues, SweepAxis, SweepCoordinate, SweepReader, SweepWriter, position_of};
-pub use writer::{TableWriter, write};
+pub use read::sweep::SweepReader;
+pub use read::table::{TableReader, read};
+pub use sweep_axis::{AxisValues, SweepAxis, SweepCoordinate, position_of};
+pub use write::sweep::SweepWriter;
+pub use write::table::{TableWriter, write};
 
 use crate::fault::{Blame, Fault};
 pub use crate::math::bytes::decimal_bytes;

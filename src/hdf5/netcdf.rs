@@ -1,7 +1,7 @@
 //! Plain netCDF-4 files for other programs: dimensions, variables, attributes as they are given.
 
+use super::file::created::{Kind, NewDataset, NewFile};
 use super::output::{Output, WriteOptions};
-use super::raw_write::{Kind, NewDataset, NewFile};
 use super::{TableError, invalid};
 use std::path::Path;
 

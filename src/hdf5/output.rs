@@ -1,8 +1,9 @@
 //! From a name that is wanted to a file that has it: options, the reserved name beside it, and the
 //! last step, which makes the file appear whole or not at all.
 
-use super::raw_write::NewFile;
-use super::{TableError, available_bytes, invalid};
+use super::file::created::NewFile;
+use super::space::available_bytes;
+use super::{TableError, invalid};
 use crate::pending_file::PendingFile;
 use std::fs::{self, File};
 use std::io::ErrorKind;
@@ -39,7 +40,7 @@ impl Default for WriteOptions {
 
 /// A file on its way to its final name.
 #[derive(Debug)]
-pub(super) struct Output {
+pub struct Output {
     pending: PendingFile,
     target: PathBuf,
     overwrite: bool,

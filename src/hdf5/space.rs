@@ -21,16 +21,9 @@ pub fn estimate_bytes(header: &TableHeader) -> u64 {
 /// Bytes free for this user on the disk that holds `folder`; `None` where the system does not say.
 #[cfg(unix)]
 pub fn available_bytes(folder: &Path) -> Option<u64> {
-    use std::os::unix::ffi::OsStrExt;
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let name = std::ffi::CString::new(folder.as_os_str().as_bytes()).ok()?;
-    // SAFETY: a valid C string, and a structure of plain integers that the call fills.
-    let (status, info) = unsafe {
-        let mut info: libc::statvfs = std::mem::zeroed();
-        (libc::statvfs(name.as_ptr(), &raw mut info), info)
-    };
-    #[allow(clippy::unnecessary_cast, reason = "the field's type differs between systems")]
-    (status == 0).then(|| (info.f_bavail as u64).saturating_mul(info.f_frsize as u64))
+    let disk = rustix::fs::statvfs(folder).ok()?;
+    Some(disk.f_bavail.saturating_mul(disk.f_frsize))
 }
 
 #[cfg(not(unix))]

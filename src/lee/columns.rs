@@ -1,7 +1,7 @@
 //! The columns of a diagram, each on its own: spheres by Lorenz–Mie, raindrops by rays.
 
+use super::largest_first::largest_first;
 use super::{Diagram, LeeError, Raindrops, Request, spheres};
-use rayon::prelude::*;
 
 /// What stands in the columns.
 #[derive(Clone, Debug)]
@@ -21,27 +21,18 @@ pub fn columns(
     bodies: &Bodies,
     done: impl Fn() + Sync,
 ) -> Result<Diagram, LeeError> {
-    let mut order: Vec<usize> = (0..request.radii.len()).collect();
-    order.sort_by(|&i, &j| request.radii[j].total_cmp(&request.radii[i]));
-    let mut columns = order
-        .par_iter()
-        .with_max_len(1)
-        .map(|&i| {
-            let one = Request { radii: vec![request.radii[i]], ..request.clone() };
-            let column = match bodies {
-                Bodies::Raindrops(drops) if drops.is_flattened(one.radii[0])? => {
-                    drops.diagram(&one)?
-                }
-                _ => spheres(&one)?,
-            };
-            done();
-            Ok((i, column.xyz))
-        })
-        .collect::<Result<Vec<_>, LeeError>>()?;
-    columns.sort_by_key(|(i, _)| *i);
+    let columns = largest_first(&request.radii, |radius| {
+        let one = Request { radii: vec![radius], ..request.clone() };
+        let column = match bodies {
+            Bodies::Raindrops(drops) if drops.is_flattened(radius)? => drops.diagram(&one)?,
+            _ => spheres(&one)?,
+        };
+        done();
+        Ok::<_, LeeError>(column.xyz)
+    })?;
     Ok(Diagram {
         radii: request.radii.clone(),
         theta: request.theta.clone(),
-        xyz: columns.into_iter().flat_map(|(_, column)| column).collect(),
+        xyz: columns.into_iter().flatten().collect(),
     })
 }

@@ -1,7 +1,8 @@
 //! The diagram as an HDF5 file: XYZ of both polarisations over radius and angle.
 
 use super::Diagram;
-use crate::hdf5::{DiagramAxis, DiagramValues, TableError, write_diagram};
+use crate::hdf5::TableError;
+use crate::hdf5::diagram::{DiagramAxis, DiagramValues, write_diagram};
 use std::path::Path;
 
 /// What the numbers do not say.

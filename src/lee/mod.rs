@@ -3,7 +3,7 @@
 //!
 //! Every column is one radius: intensity by wavelength, averaged over the sun's disc, turned into
 //! XYZ. Interference between rays that took different ways through the drop leaves a ripple far
-//! finer than the disc and the eye; it must average out and not be sampled. [`Sampling`] says how
+//! finer than the disc and the eye; it must average out and not be sampled. `sampling` says how
 //! many angles and wavelengths that takes, [`SunFilter`] averages.
 //!
 //! ```
@@ -31,15 +31,16 @@ mod columns;
 mod diagram;
 #[cfg(feature = "hdf5")]
 pub mod file;
+mod largest_first;
 mod raindrops;
-mod sampling;
+pub(crate) mod sampling;
 mod wavelengths;
 
 pub use crate::optics::Polarisation;
 pub use columns::{Bodies, columns};
 pub use diagram::{Diagram, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
-pub use sampling::{Band, Beats, Sampling, SamplingNeed};
+pub use sampling::Beats;
 
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::fault::{Blame, Fault};
@@ -53,9 +54,10 @@ use crate::simulate::SimulateError;
 use crate::size_distribution::log_normal_sample;
 use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
+use largest_first::largest_first;
 use num_complex::Complex64;
 use rayon::prelude::*;
-use sampling::{AXIS_LIMIT, TRANSITION, grid};
+use sampling::{AXIS_LIMIT, Band, Sampling, SamplingNeed, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
@@ -179,22 +181,11 @@ where
 {
     check(request, beats)?;
     let index = request.medium.index(MIDDLE).map_err(LeeError::from)?.re;
-    let mut order: Vec<usize> = (0..request.radii.len()).collect();
-    order.sort_by(|&i, &j| request.radii[j].total_cmp(&request.radii[i]));
-    let mut columns = order
-        .par_iter()
-        .with_max_len(1)
-        .map(|&i| {
-            let sampling = Sampling::new(&request.need(request.radii[i], index, beats));
-            Ok((i, column(request, request.radii[i], (&sampling, beats), prepare, &scatter)?))
-        })
-        .collect::<Result<Vec<_>, E>>()?;
-    columns.sort_by_key(|(i, _)| *i);
-    Ok(Diagram {
-        radii: request.radii.clone(),
-        theta: request.theta.clone(),
-        xyz: columns.into_iter().map(|(_, column)| column).collect(),
-    })
+    let xyz = largest_first(&request.radii, |radius| {
+        let sampling = Sampling::new(&request.need(radius, index, beats));
+        column(request, radius, (&sampling, beats), prepare, &scatter)
+    })?;
+    Ok(Diagram { radii: request.radii.clone(), theta: request.theta.clone(), xyz })
 }
 
 /// Where the index that stands for the whole visible is taken.

@@ -150,11 +150,6 @@ impl Sampling {
             .collect();
         Self { wavelengths, widths, cutoff, finest_step, bands }
     }
-
-    /// Number of directions × wavelengths over a span of angles.
-    pub fn samples(&self, span: f64) -> f64 {
-        self.bands.iter().map(|band| band.places.len() as f64 * span / band.step()).sum()
-    }
 }
 
 /// Sizes are taken up to this quantile of the normal distribution, in standard deviations.

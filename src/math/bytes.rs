@@ -1,10 +1,4 @@
 //! Numbers of bytes for people: memory in powers of 1024, disks in powers of 1000 as they are labelled.
-//!
-//! ```
-//! use gonio::math::bytes::{decimal_bytes, human_bytes};
-//! assert_eq!(human_bytes(1_234_567), "1.2 MiB");
-//! assert_eq!(decimal_bytes(1_234_567), "1.2 MB");
-//! ```
 
 /// A number of bytes in memory: `1.2 MiB`.
 pub fn human_bytes(bytes: u64) -> String {

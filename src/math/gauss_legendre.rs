@@ -1,12 +1,4 @@
 //! Nodes and weights of Gauss–Legendre quadrature on [−1, 1], by Newton's method on P_n.
-//!
-//! ```
-//! use gonio::math::gauss_legendre::nodes;
-//!
-//! // exact for polynomials up to degree 2 · 3 - 1
-//! let fifth: f64 = nodes(3).iter().map(|(x, weight)| weight * (x + 1.0).powi(5)).sum();
-//! assert!((fifth - 64.0 / 6.0).abs() < 1e-13);
-//! ```
 
 use std::f64::consts::PI;
 

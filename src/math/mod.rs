@@ -1,26 +1,28 @@
-//! Mathematics without physics: special functions, kernels, interpolation, quadrature.
+//! Mathematics without physics. For shapes of one's own: vectors, real and complex scalars, jets that carry
+//! derivatives along; inside the house also special functions, kernels, interpolation, quadrature.
 //!
 //! ```
-//! use gonio::math::gauss_legendre;
+//! use gonio::math::jet::Jet;
 //!
-//! let integral: f64 = gauss_legendre::nodes(20).iter().map(|(x, weight)| weight * x.exp()).sum();
-//! assert!((integral - (1f64.exp() - (-1f64).exp())).abs() < 1e-14);
+//! let (q, depth) = (Jet::first(0.9), Jet::second(0.4));
+//! let outline = (q - depth * depth) / 4.0 + depth * depth / 9.0 - 1.0;
+//! assert!((outline.x - 0.25).abs() < 1e-15); // its slope along q
 //! ```
 
-pub mod bytes;
+pub(crate) mod bytes;
 mod curves;
 pub mod digits;
-pub mod fused;
-pub mod gauss_legendre;
-pub mod half_turn;
+pub(crate) mod fused;
+pub(crate) mod gauss_legendre;
+pub(crate) mod half_turn;
 pub mod jet;
-pub mod phase;
+pub(crate) mod phase;
 pub mod scalar;
 mod special;
 pub mod vec3;
 
-pub use curves::{chebyshev, cosine_series, interpolate, lane_fourier, monotone, spline};
-pub use special::{airy, principal_value, riccati_bessel, spherical_harmonics};
+pub(crate) use curves::{chebyshev, cosine_series, interpolate, lane_fourier, monotone};
+pub(crate) use special::{airy, principal_value, riccati_bessel, spherical_harmonics};
 
 /// The golden ratio's fraction: steps of it spread any number of places evenly over 0 to 1.
-pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
+pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;

@@ -1,13 +1,5 @@
 //! Sine and cosine of a phase given in turns, without branches, for loops that the compiler can
 //! spread over vector lanes.
-//!
-//! ```
-//! use gonio::math::phase::sin_cos_turns;
-//!
-//! // a hundred thousand turns and an eighth: no digit of the eighth is lost
-//! let (sin, cos) = sin_cos_turns(100_000.125);
-//! assert!((sin - 0.5f64.sqrt()).abs() < 1e-12 && (cos - 0.5f64.sqrt()).abs() < 1e-12);
-//! ```
 
 use super::fused::multiply_add;
 use std::f64::consts::TAU;

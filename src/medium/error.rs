@@ -3,7 +3,7 @@
 use crate::fault::{Blame, Fault};
 use crate::math::digits::to_digits;
 use num_complex::Complex64;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What went wrong with a medium: the field or file, the value, and what is accepted.
 #[derive(Debug, thiserror::Error)]
@@ -38,6 +38,15 @@ pub(super) fn invalid(field: &str, value: impl ToString, accepted: &str) -> Medi
         value: value.to_string(),
         accepted: accepted.into(),
     }
+}
+
+/// An error about a file.
+pub(super) fn file_error(
+    path: &Path,
+    line: Option<usize>,
+    message: impl Into<String>,
+) -> MediumError {
+    MediumError::File { path: path.to_path_buf(), line, message: message.into() }
 }
 
 /// Refuses wavelengths (metres) outside a range, with a slack of a part in 10¹² for rounding.

@@ -1,11 +1,12 @@
 //! The kinds of media: a closed set, one arm and one file each.
 
 use super::data::material::Material;
+use super::dispersion::abbe::{Abbe, AbbeLines};
 use super::error::{
     MediumError, PLAUSIBLE_INDEX, invalid, is_plausible, nanometres, without_trace,
 };
 use super::own::OwnMedium;
-use super::solution::Solution;
+use super::solution::{Host, Solution};
 use super::water::daimon::Daimon;
 use super::water::microwave::{MICROWAVES, MicrowaveWater};
 use super::water::{self, sea};
@@ -49,7 +50,7 @@ pub enum Medium {
     /// A material by a formula or a table.
     Material(Arc<Material>),
     /// A dye in a host.
-    Solution(Arc<Solution>),
+    Solution(Arc<Solution<Medium>>),
     /// A function of the wavelength.
     Own(OwnMedium),
 }
@@ -148,6 +149,16 @@ impl Medium {
         }
     }
 
+    /// Index and Abbe number, where the data cover the three lines.
+    pub fn abbe(&self, lines: AbbeLines) -> Option<Abbe> {
+        let mut n = [0.0; 3];
+        for (n, um) in n.iter_mut().zip(lines.micrometres()) {
+            *n = self.index(um / 1e6).ok()?.re;
+        }
+        let number = (n[0] - 1.0) / (n[1] - n[2]);
+        number.is_finite().then_some(Abbe { index: n[0], number })
+    }
+
     /// What the readers of its files changed or left out, for the user to know.
     pub fn notes(&self) -> Vec<String> {
         match self {
@@ -173,5 +184,27 @@ impl Medium {
             }
             _ => Ok(()),
         }
+    }
+}
+
+impl Host for Medium {
+    fn index(&self, wavelength: f64) -> Result<Complex64, MediumError> {
+        self.index(wavelength)
+    }
+
+    fn valid_range(&self) -> (f64, f64) {
+        self.valid_range()
+    }
+
+    fn name(&self) -> String {
+        self.name()
+    }
+
+    fn source(&self) -> String {
+        self.source()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.notes()
     }
 }

@@ -6,7 +6,8 @@
 //! air, which this program takes as index 1.
 //!
 //! `spec` holds what is written down, `read` the readers of files, `data` rows made curves, `dispersion`
-//! formulas, `water` the waters, [`kramers_kronig`] the transform; `library` the media by name.
+//! formulas, `shipped` what is compiled in, `water` the waters, [`kramers_kronig`] the transform; `kinds` is the
+//! closed set of media, `library` the media by name.
 //!
 //! ```
 //! use gonio::medium::MediumSpec;
@@ -23,6 +24,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod band_model;
 mod data;
 mod dispersion;
 mod error;
@@ -31,26 +33,28 @@ pub mod kramers_kronig;
 mod library;
 mod own;
 mod read;
+mod shipped;
 mod shown;
 mod solution;
 mod spec;
+mod spelling;
 mod water;
 
+pub use band_model::BandModel;
+pub use data::extinction::Extinction;
 pub use data::material::{Material, RealIndex};
 pub use data::samples::{DataCurve, Samples};
 pub use data::table::Table;
 pub use data::unit::Unit;
 pub use dispersion::abbe::{Abbe, AbbeLines, abbe_to_sellmeier, fit_cauchy};
-pub use dispersion::band_model::BandModel;
 pub use dispersion::formula::Formula;
-pub use error::{MediumError, PLAUSIBLE_INDEX, is_plausible};
+pub use error::MediumError;
 pub use kinds::Medium;
 pub use library::{LibraryEntry, list};
 pub use own::OwnMedium;
 pub use read::csv_table::read as read_csv;
-pub use read::extinction::Extinction;
 pub use shown::{even_sample_nm, shown_wavelengths_nm};
-pub use solution::{Dye, Solution};
+pub use solution::Solution;
 pub use spec::density::Density;
 pub use spec::index_text::parse_index;
 pub use spec::{MediumSpec, NamedSpec};

@@ -6,7 +6,6 @@
 //! solutions, where the dye displaces little of it.
 
 use crate::medium::error::{MediumError, check_range, invalid};
-use crate::medium::kinds::Medium;
 use crate::medium::kramers_kronig::Absorption;
 use num_complex::Complex64;
 
@@ -23,19 +22,33 @@ pub struct Dye {
     pub notes: Vec<String>,
 }
 
+/// What a dye can be dissolved in: whatever has an index.
+pub trait Host {
+    /// Complex index at a wavelength in metres.
+    fn index(&self, wavelength: f64) -> Result<Complex64, MediumError>;
+    /// Wavelengths in metres that the data cover.
+    fn valid_range(&self) -> (f64, f64);
+    /// What it is called.
+    fn name(&self) -> String;
+    /// Where its data are from.
+    fn source(&self) -> String;
+    /// What the readers of its files changed or left out.
+    fn notes(&self) -> Vec<String>;
+}
+
 /// A dye in a host.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
+pub struct Solution<H> {
     dye: Dye,
     fraction: f64,
-    host: Medium,
+    host: H,
     /// Whether the index follows the absorption; without it n is the host's (for comparison).
     dispersion: bool,
 }
 
-impl Solution {
+impl<H: Host> Solution<H> {
     /// `fraction` from 0 to 1.
-    pub fn new(dye: Dye, fraction: f64, host: Medium) -> Result<Self, MediumError> {
+    pub fn new(dye: Dye, fraction: f64, host: H) -> Result<Self, MediumError> {
         if !(0.0..=1.0).contains(&fraction) {
             return Err(invalid("fraction", fraction, "0 to 1 (0.01 is one per cent by volume)"));
         }

@@ -42,6 +42,7 @@ mod polarisation;
 
 pub use amplitude::{AmplitudeMatrix, mirror_sign};
 pub use descartes::rainbow_angle;
-pub use fresnel::{Fresnel, curved_from_inside, curved_from_outside, fresnel};
-pub use grazing::Grazing;
+pub use fresnel::{Fresnel, fresnel};
+pub(crate) use fresnel::{curved_from_inside, curved_from_outside};
+pub(crate) use grazing::Grazing;
 pub use polarisation::Polarisation;

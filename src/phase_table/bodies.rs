@@ -15,7 +15,7 @@
 //! ```
 
 use super::InvalidTable;
-use super::validate::invalid;
+use super::invalid::invalid;
 use std::f64::consts::PI;
 
 /// Bodies of one table, means per particle.

@@ -2,8 +2,8 @@
 //! scattering and absorption and what the wave straight ahead lacks. The same check judges a table
 //! that is to be written and one that was read.
 
+use super::invalid::{InvalidTable, invalid};
 use super::{Axes, EnergyBudget, ForwardPeak, PhaseTable, Slab, TableHeader};
-use crate::fault::{Blame, Fault};
 use std::f64::consts::{PI, TAU};
 
 /// How far an element may exceed S11, relative: rounding to `f32` of both.
@@ -21,28 +21,6 @@ const FORWARD_TOLERANCE: f64 = 1e-3;
 /// How far the fates of light may be from adding up to 1: what the main path accepts of rays, and the
 /// power that an absorbing interface mixes.
 const BUDGET_TOLERANCE: f64 = 1e-6;
-
-/// What is wrong with a table or its header: the field, the value, what is accepted.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field} = {value}: {accepted}")]
-pub struct InvalidTable {
-    /// What is wrong.
-    pub field: String,
-    /// Its value.
-    pub value: String,
-    /// What would do.
-    pub accepted: String,
-}
-
-impl Blame for InvalidTable {
-    fn fault(&self) -> Fault {
-        Fault::Run
-    }
-}
-
-pub(super) fn invalid(field: &str, value: impl ToString, accepted: &str) -> InvalidTable {
-    InvalidTable { field: field.into(), value: value.to_string(), accepted: accepted.into() }
-}
 
 impl Axes {
     /// # Errors
@@ -300,48 +278,22 @@ impl PhaseTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::phase_table::{Averaging, Quantity};
+    use crate::phase_table::Quantity;
     use ndarray::Array3;
     use num_complex::Complex64;
 
     /// Isotropic scattering, a third absorbed.
     fn sound() -> (TableHeader, Slab) {
         let theta: Vec<f64> = (0..=180).map(|i| PI * f64::from(i) / 180.0).collect();
-        let header = TableHeader {
-            axes: Axes { wavelength: vec![5e-7], theta, phi: vec![0.0] },
-            quantity: Quantity::PhaseFunction,
-            forward_peak: ForwardPeak::CellAverage,
-            rotational_symmetry: true,
-            method: "mie".into(),
-            shape: "sphere".into(),
-            radius: 1e-6,
-            sun_elevation: 0.0,
-            bodies: None,
-            averaging: Averaging::default(),
-            tolerance: 0.01,
-            scene_toml: String::new(),
-            command_line: String::new(),
-        };
-        let slab = Slab {
-            wavelength: 5e-7,
-            index: Complex64::new(1.33, 0.01),
-            values: Array3::from_elem((1, 181, 1), (0.25 / PI) as f32),
-            caustic_order: None,
-            scattering_cross_section: 2e-12,
-            extinction_cross_section: 3e-12,
-            absorption_cross_section: 1e-12,
-            forward_extinction: Some(3e-12),
-            asymmetry: 0.0,
-            energy: None,
-            sum_before_peak: 1.0,
-            peak_share: 0.0,
-            error_estimate: f64::NAN,
-            error_by_band: f64::NAN,
-            error_by_direction: [f64::NAN; crate::phase_table::ERROR_BANDS],
-            left_out: 0.0,
-            methods: Vec::new(),
-            tolerance_met: None,
-        };
+        let axes = Axes { wavelength: vec![5e-7], theta, phi: vec![0.0] };
+        let mut header = TableHeader::of_sphere(1e-6, axes, Quantity::PhaseFunction);
+        header.forward_peak = ForwardPeak::CellAverage;
+        header.tolerance = 0.01;
+        let values = Array3::from_elem((1, 181, 1), (0.25 / PI) as f32);
+        let place = (5e-7, Complex64::new(1.33, 0.01));
+        let mut slab = Slab::plain(place, values, [2e-12, 3e-12], 0.0);
+        slab.forward_extinction = Some(3e-12);
+        slab.sum_before_peak = 1.0;
         (header, slab)
     }
 

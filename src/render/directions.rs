@@ -43,11 +43,6 @@ impl DirectionGrid {
         self.theta.len() * self.phi.len()
     }
 
-    /// True where there is none.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The table has one azimuth and stands for all.
     pub fn is_rotational(&self) -> bool {
         self.phi.len() == 1

@@ -27,7 +27,6 @@ pub mod sky;
 mod thinned;
 mod tristimulus;
 
-pub use directions::DirectionGrid;
 pub use error::RenderError;
 pub use picture::{Picture, write_complete};
 #[cfg(feature = "pictures")]
@@ -35,10 +34,7 @@ pub use plots::color_diagram::ColorDiagram;
 #[cfg(feature = "pictures")]
 pub use plots::font::{FONT, ensure_font};
 #[cfg(feature = "pictures")]
-pub use plots::heat_map::{colour_bar, draw_pixels};
-#[cfg(feature = "pictures")]
 pub use plots::preview;
 #[cfg(feature = "pictures")]
 pub use ray_paths::draw_ray_paths;
 pub use thinned::Thinned;
-pub use tristimulus::{Tristimulus, rotational_xyz};

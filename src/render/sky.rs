@@ -10,7 +10,8 @@
 
 use super::camera::Camera;
 use super::error::RenderError;
-use super::{Picture, Tristimulus};
+use super::picture::Picture;
+use super::tristimulus::Tristimulus;
 use crate::color::{
     Illuminant, Observer, SUN_ANGULAR_RADIUS, encode_srgb, fit_gamut, xyz_to_linear_srgb,
 };

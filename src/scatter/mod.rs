@@ -27,11 +27,12 @@ mod series;
 mod size;
 mod tmatrix;
 
-pub use rays::{Doubt, RayDiffraction, RayRequest, rays};
+pub use rays::{RayDiffraction, RayRequest, rays};
 pub use series::{DebyeTerms, debye, lorenz_mie};
 pub use size::{Size, SizeConflict};
 pub use tmatrix::t_matrix;
 
+use crate::farfield::ErrorEstimate;
 use crate::fault::{Blame, Fault};
 use crate::optics::AmplitudeMatrix;
 use crate::plan::PlanError;
@@ -64,13 +65,10 @@ pub struct Scattering {
     pub efficiencies: Efficiencies,
     /// Whether forward diffraction is among the amplitudes.
     pub diffraction_included: bool,
-    /// Error of amplitudes, root mean square over all directions, relative to their own, where the method
-    /// states one.
-    pub error_estimate: Option<f64>,
     /// What a sum over Debye's terms from the first on leaves out.
     pub remainder: Option<Remainder>,
-    /// Where rays hardly serve.
-    pub doubt: Option<Doubt>,
+    /// How far intensities by rays or a T-matrix may be from the truth.
+    pub worth: Option<ErrorEstimate>,
 }
 
 /// What a sum over Debye's terms leaves out.

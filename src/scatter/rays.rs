@@ -1,14 +1,11 @@
 //! Any shape by rays: amplitudes, and efficiencies from the optical theorem and the budget of energy.
 
 use super::{Request, ScatterError, Scattering};
-use crate::farfield::ErrorEstimate;
 use crate::farfield::patches::gaussian_filter;
-use crate::plan::{
-    DOUBTFUL_PHASE_SHIFT, Engine, Plan, Symmetry, check_rays, last_order, phase_shift,
-};
+use crate::plan::{Engine, Plan, Symmetry, check_rays, last_order};
 use crate::series::Efficiencies;
 use crate::shape::Shape;
-use crate::simulate;
+use crate::simulate::{self, Seen};
 use crate::trace::{Fates, Tracer, Wavefront, energy_by_fate};
 use std::f64::consts::PI;
 
@@ -40,15 +37,6 @@ pub struct RayRequest {
     pub rays_across: Option<usize>,
 }
 
-/// That rays hardly serve a particle, and how far they are off for the sphere of equal volume.
-#[derive(Clone, Copy, Debug)]
-pub struct Doubt {
-    /// `2x|n - 1|`, radians.
-    pub phase_shift: f64,
-    /// Relative errors of intensities from 10 to 170 degrees.
-    pub worth: ErrorEstimate,
-}
-
 /// Rays per side of the grid on which the energy is added up.
 const GRID: usize = 64;
 
@@ -78,7 +66,7 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
     let asked = request.theta.iter().map(|&theta| (theta, azimuth));
     let directions: Vec<(f64, f64)> = asked.chain([(PI, azimuth)]).collect();
     let fates = fates(&plan, request)?;
-    let (mut amplitudes, sections) = simulate::scatter_with_sections(
+    let Seen { mut amplitudes, sections, worth } = simulate::scatter_with_sections(
         &plan,
         index,
         size_parameter,
@@ -86,13 +74,6 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
         fates.absorbed,
         filter,
     )?;
-    let phase_shift = phase_shift(index, size_parameter);
-    let doubt = if engine == Engine::Meridians && phase_shift < DOUBTFUL_PHASE_SHIFT {
-        let worth = simulate::worth_of_rays(&plan, index, size_parameter)?;
-        Some(Doubt { phase_shift, worth })
-    } else {
-        None
-    };
     let back = amplitudes.pop().unwrap_or_default();
     let shadow = plan.shape.silhouette().area() / PI;
     let (q_ext, q_abs) = (sections.extinction / PI, sections.absorption / PI);
@@ -111,9 +92,8 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
         amplitudes,
         efficiencies,
         diffraction_included,
-        error_estimate: None,
         remainder: None,
-        doubt,
+        worth: Some(worth),
     })
 }
 
@@ -155,14 +135,14 @@ mod tests {
         let found = seen.efficiencies;
         assert!((found.q_ext / exact.q_ext - 1.0).abs() < 2e-3, "{found:?} {exact:?}");
         assert!((found.asymmetry - exact.asymmetry).abs() < 6e-3, "{found:?} {exact:?}");
-        assert!(seen.diffraction_included && seen.doubt.is_none());
+        assert!(seen.diffraction_included && seen.worth.unwrap().weighted < 0.1);
     }
 
-    /// Where rays hardly serve, how far they are off is told; where they cannot, they are refused.
+    /// How far rays are off is told; where they cannot, they are refused.
     #[test]
     fn doubt_is_told_and_impossible_is_refused() {
-        let doubt = rays(&request(25.0), &sphere(RayDiffraction::Airy)).unwrap().doubt.unwrap();
-        assert!((doubt.phase_shift - 16.5).abs() < 1e-9 && doubt.worth.weighted > 0.0);
+        let worth = rays(&request(25.0), &sphere(RayDiffraction::Airy)).unwrap().worth.unwrap();
+        assert!(worth.weighted > 0.05, "{worth:?}");
         let refused = rays(&request(0.5), &sphere(RayDiffraction::None)).unwrap_err();
         assert_eq!(crate::fault::Blame::fault(&refused), crate::fault::Fault::Input);
     }

@@ -27,9 +27,8 @@ pub fn lorenz_mie(request: &Request) -> Result<Scattering, SeriesError> {
         amplitudes: diagonal(sphere.amplitudes_parallel(&request.theta)),
         efficiencies: sphere.efficiencies(),
         diffraction_included: true,
-        error_estimate: None,
         remainder: None,
-        doubt: None,
+        worth: None,
     })
 }
 
@@ -63,14 +62,7 @@ pub fn debye(request: &Request, terms: &DebyeTerms) -> Result<Scattering, Series
         }
     });
     let efficiencies = Sphere::new(request.size_parameter, request.index)?.efficiencies();
-    Ok(Scattering {
-        amplitudes,
-        efficiencies,
-        diffraction_included,
-        error_estimate: None,
-        remainder,
-        doubt: None,
-    })
+    Ok(Scattering { amplitudes, efficiencies, diffraction_included, remainder, worth: None })
 }
 
 fn diagonal(pairs: Vec<(Complex64, Complex64)>) -> Vec<AmplitudeMatrix> {

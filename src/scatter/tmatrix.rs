@@ -1,7 +1,9 @@
 //! Bodies of revolution by the T-matrix.
 
 use super::{Request, Scattering};
-use crate::series::tmatrix::{Scattered, Sections, TMatrix, TMatrixError};
+use crate::farfield::ErrorEstimate;
+use crate::phase_table::ERROR_BANDS;
+use crate::series::tmatrix::{Scattered, Sections, StatedError, TMatrix, TMatrixError};
 use crate::shape::Shape;
 
 /// A body of revolution, its axis where the shape has it, by the T-matrix.
@@ -15,13 +17,15 @@ pub fn t_matrix(request: &Request, shape: &Shape) -> Result<Scattering, TMatrixE
         request.theta.iter().map(|&theta| (theta, request.azimuth)).collect();
     let q = scattered.efficiencies();
     let sections = Sections::new(&q, &t);
+    let StatedError { weighted, by_band, by_direction } =
+        StatedError::of_fixed(&t, &scattered).at_least(sections.lost);
+    let straight_back = by_direction[ERROR_BANDS - 1];
     Ok(Scattering {
         amplitudes: scattered.directions(&directions),
         efficiencies: sections.efficiencies(&q),
         diffraction_included: true,
-        error_estimate: Some(t.error().max(sections.lost)),
         remainder: None,
-        doubt: None,
+        worth: Some(ErrorEstimate { weighted, by_band, by_direction, straight_back }),
     })
 }
 
@@ -49,6 +53,6 @@ mod tests {
         }
         let (a, b) = (found.efficiencies, known.efficiencies);
         assert!((a.q_abs / b.q_abs - 1.0).abs() < 1e-9 && (a.q_ext / b.q_ext - 1.0).abs() < 1e-10);
-        assert!(found.error_estimate.unwrap() < 1e-9);
+        assert!(found.worth.unwrap().weighted < 1e-6);
     }
 }

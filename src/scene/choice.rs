@@ -120,22 +120,17 @@ impl<'de> Deserialize<'de> for OrientationKey {
 
 impl Named for RaindropModel {
     const NAMES: &'static [(&'static str, Self)] = &[
-        ("beard-chuang-1987", RaindropModel::BeardChuang1987),
-        ("chuang-beard-1990", RaindropModel::ChuangBeard1990),
+        (RaindropModel::BeardChuang1987.name(), RaindropModel::BeardChuang1987),
+        (RaindropModel::ChuangBeard1990.name(), RaindropModel::ChuangBeard1990),
     ];
 }
 
 impl Named for Quantity {
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("phase_function", Quantity::PhaseFunction), ("mueller", Quantity::Mueller)];
+    const NAMES: &'static [(&'static str, Self)] = &Quantity::WORDS;
 }
 
 impl Named for ForwardPeak {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("cell_average", ForwardPeak::CellAverage),
-        ("point", ForwardPeak::Point),
-        ("separate", ForwardPeak::Separate),
-    ];
+    const NAMES: &'static [(&'static str, Self)] = &ForwardPeak::WORDS;
 }
 
 impl Named for SunDisc {

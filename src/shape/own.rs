@@ -27,7 +27,8 @@
 //! # Ok::<(), gonio::shape::ShapeError>(())
 //! ```
 
-use super::{Level, ShapeError, Slope};
+use super::error::ShapeError;
+use super::level::{Level, Slope};
 use crate::math::gauss_legendre;
 use crate::math::jet::Jet;
 use crate::math::scalar::Scalar;

@@ -8,8 +8,10 @@
 //! deformation shrinks with the square of the radius, as balance of pressure and surface tension
 //! asks for small drops.
 
-use super::{Level, ShapeError, Slope};
+use super::error::ShapeError;
+use super::level::{Level, Slope};
 use crate::math::scalar::Scalar;
+use std::f64::consts::PI;
 
 const BEARD_CHUANG_1987: &str = include_str!("../../data/drops/raindrop_beard_chuang_1987.csv");
 const CHUANG_BEARD_1990: &str = include_str!("../../data/drops/raindrop_chuang_beard_1990.csv");
@@ -32,7 +34,7 @@ pub enum RaindropModel {
 
 impl RaindropModel {
     /// Name in scene files.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::BeardChuang1987 => "beard-chuang-1987",
             Self::ChuangBeard1990 => "chuang-beard-1990",
@@ -99,7 +101,11 @@ pub struct Raindrop {
     /// Coefficients of μ⁰, μ¹, …
     powers: Vec<f64>,
     bounding_radius: f64,
+    convex: bool,
 }
+
+/// Points of the profile at which its curvature is looked at.
+const CURVATURES: u32 = 360;
 
 impl Raindrop {
     /// A drop of equal-volume radius (metres).
@@ -115,7 +121,22 @@ impl Raindrop {
             powers.pop();
         }
         let bound = 1.0 + coefficients.iter().map(|c| c.abs()).sum::<f64>();
-        Self { powers, bounding_radius: bound }
+        let mut drop = Self { powers, bounding_radius: bound, convex: true };
+        let angle = |k: u32| PI * f64::from(k) / f64::from(CURVATURES);
+        drop.convex = (0..=CURVATURES).all(|k| drop.bulges(angle(k)));
+        drop
+    }
+
+    /// Whether the profile bulges at an angle from the lower pole: `ρ² + 2ρ'² - ρρ'' > 0`.
+    fn bulges(&self, angle: f64) -> bool {
+        let (sin, cos) = angle.sin_cos();
+        let (r, dr, ddr) = self.profile(cos);
+        let (slope, bend) = (-dr * sin, ddr * sin * sin - dr * cos);
+        r * r + 2.0 * slope * slope - r * bend > 0.0
+    }
+
+    pub(super) fn is_convex(&self) -> bool {
+        self.convex
     }
 
     pub(super) fn is_sphere(&self) -> bool {
@@ -217,6 +238,23 @@ mod tests {
             }
             assert!((sum - volume).abs() < 1e-5, "volume at {radius}: {sum}");
             assert!(((low + high) / (2.0 * wide) - ratio).abs() < 2e-5, "ratio at {radius}");
+        }
+    }
+
+    /// Drops of both models bulge everywhere up to 2.5 mm; those of 3.5 mm
+    /// have a hollow about the lower pole.
+    #[test]
+    fn large_drops_are_hollow_below() {
+        let chuang_beard =
+            |radius: f64| Raindrop::new(radius, RaindropModel::ChuangBeard1990).unwrap();
+        for radius in [1e-4, 1e-3, 2.5e-3] {
+            assert!(chuang_beard(radius).is_convex(), "{radius}");
+            assert!(Raindrop::new(radius, RaindropModel::BeardChuang1987).unwrap().is_convex());
+        }
+        for radius in [3.5e-3, 4.5e-3] {
+            let drop = chuang_beard(radius);
+            assert!(!drop.is_convex() && !drop.bulges(0.28), "{radius}");
+            assert!(drop.bulges(0.0) && drop.bulges(1.2), "{radius}");
         }
     }
 

@@ -1,8 +1,8 @@
 //! The silhouette: the outline of the body's shadow, seen along the light.
 
-use super::{Body, Shape};
+use super::body::{Body, Shape};
 use crate::math::vec3::Vec3;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Radius of the shadow's outline about the centre, by azimuth `ψ` in the plane of `(u, v)`.
 #[derive(Clone, Debug)]
@@ -61,7 +61,8 @@ impl Silhouette<'_> {
         let (mut rho, mut t) = match &self.shape.body {
             // Newton's method from a sphere leads astray on discs and needles.
             Body::Spheroid(spheroid) => spheroid.outline(down.dot(along), down.z),
-            _ => (1.0, 0.0),
+            Body::Sphere => (1.0, 0.0),
+            _ => self.start(along),
         };
         for _ in 0..50 {
             let x = along * rho + Vec3 { x: 0.0, y: 0.0, z: t };
@@ -93,6 +94,21 @@ impl Silhouette<'_> {
         (rho, -by_turn / by_rho)
     }
 
+    /// Where to start from: next to the outline's point, which on strongly deformed bodies has rivals.
+    fn start(&self, along: Vec3<f64>) -> (f64, f64) {
+        const GENTLE: f64 = 1.25;
+        const POINTS: u32 = 90;
+        if self.shape.bounding_radius() < GENTLE {
+            return (1.0, 0.0);
+        }
+        let point = |k: u32| {
+            let (sin, cos) = (PI * f64::from(k) / f64::from(POINTS)).sin_cos();
+            let radius = self.shape.radius_towards(along.x * sin, along.y * sin, cos);
+            (radius * sin, radius * cos)
+        };
+        (1..POINTS).map(point).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, 0.0))
+    }
+
     /// Area of the shadow, in units of the square of the radius of equal volume.
     pub fn area(&self) -> f64 {
         let count = 720;
@@ -105,7 +121,6 @@ impl Silhouette<'_> {
 mod tests {
     use super::*;
     use crate::shape::RaindropModel;
-    use std::f64::consts::PI;
 
     /// The shadow of a spheroid is an ellipse of half axes h and `√(v² cos² e + h² sin² e)`.
     #[test]

@@ -1,6 +1,6 @@
 //! The sphere: `F = (q - 1) / 2`.
 
-use super::{Level, Slope};
+use super::level::{Level, Slope};
 use crate::math::scalar::Scalar;
 
 pub(super) fn slope<T: Scalar>(q: T) -> Slope<T> {

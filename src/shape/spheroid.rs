@@ -1,7 +1,8 @@
 //! The spheroid of equal volume: `F = ½ [(q - ζ²)/h² + ζ²/v² - 1]`, half axes h (horizontal, twice)
 //! and v (vertical) with `h² v = 1`.
 
-use super::{Level, ShapeError, Slope};
+use super::error::ShapeError;
+use super::level::{Level, Slope};
 use crate::math::scalar::Scalar;
 
 /// Inverse squares of the half axes.
@@ -63,8 +64,8 @@ impl Spheroid {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Shape;
     use crate::math::vec3::Vec3;
+    use crate::shape::Shape;
 
     /// Half axes, and the radii of curvature at pole and equator: h²/v; v²/h along the meridian, h
     /// around.

@@ -2,8 +2,8 @@
 
 use super::cross_sections::CrossSections;
 use super::error::SimulateError;
-use super::far_field;
-use crate::farfield::FarField;
+use super::{Treatment, far_field, worth};
+use crate::farfield::{ErrorEstimate, FarField};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::InvalidTable;
 use crate::plan::Plan;
@@ -20,12 +20,25 @@ pub fn scatter(
     scatter_far_field(plan, index, size_parameter, directions).0
 }
 
-/// The same with cross sections, for the share of light on the shadow that rays lose inside.
+/// What rays make of chosen directions.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// In the order of the directions.
+    pub amplitudes: Vec<AmplitudeMatrix>,
+    /// Of the whole particle.
+    pub sections: CrossSections,
+    /// How far intensities may be from the truth.
+    pub worth: ErrorEstimate,
+}
+
+/// The same with cross sections, for the share of light on the shadow that rays lose inside, and with what
+/// the intensities are worth.
 ///
 /// With a `filter` (radians) amplitudes of patches have the intensities that it leaves near bows.
 ///
 /// # Errors
-/// Amplitudes that are no numbers, cross-sections that are none or out of balance.
+/// Amplitudes that are no numbers, cross-sections that are none or out of balance; what the series that
+/// judge rays refuse.
 pub fn scatter_with_sections(
     plan: &Plan,
     index: Complex64,
@@ -33,14 +46,16 @@ pub fn scatter_with_sections(
     directions: &[(f64, f64)],
     absorbed: f64,
     filter: Option<f64>,
-) -> Result<(Vec<AmplitudeMatrix>, CrossSections), SimulateError> {
+) -> Result<Seen, SimulateError> {
     let (mut amplitudes, far_field) = scatter_far_field(plan, index, size_parameter, directions);
     if let Some(sigma) = filter {
         amplitudes = far_field.scatter_filtered(directions, plan.forward_diffraction, sigma);
     }
     let sections = CrossSections::new(plan, &far_field, index, absorbed);
     sections.validate()?;
-    Ok((finite(amplitudes, directions)?, sections))
+    let treatment = Treatment { interference: true, filter, peak_apart: false };
+    let worth = worth(&far_field, plan, index, size_parameter, treatment)?;
+    Ok(Seen { amplitudes: finite(amplitudes, directions)?, sections, worth })
 }
 
 /// Amplitudes as they are, where all of them are numbers.

@@ -73,6 +73,11 @@ struct Peak<'a> {
     wave: ForwardWave<'a>,
 }
 
+/// How far the share of a separated peak may be from that of the shadow's light, beside the edge effect of
+/// order `x^(-2/3)`: what the wave between diffraction and rays carries, and what samples add up to of fringes
+/// finer than they are. Ten shapes and sizes, x = 200 to 10 000, 181 to 1801 angles: up to 0.008.
+const EDGE_SHARE: f64 = 0.015;
+
 /// Columns computed together, so that what they share is read once.
 const COLUMNS_AT_ONCE: usize = 8;
 
@@ -250,6 +255,13 @@ impl Tabulator<'_> {
         };
         let diffracts = self.diffraction.is_some();
         let share = if diffracts { self.shadow_area / self.scattering } else { 0.0 };
+        if self.forward_peak == ForwardPeak::Separate && diffracts && covers_sphere {
+            // what the rest does not hold is in the peak, as long as that is the shadow's but for its edge
+            let missing = 1.0 - self.left_out - rest;
+            let edge = EDGE_SHARE + self.size_parameter.powf(-2.0 / 3.0);
+            let closed = if (missing - share).abs() < edge { missing } else { share };
+            return (1.0, sum_before_peak, closed);
+        }
         if self.forward_peak != ForwardPeak::CellAverage || !covers_sphere || with <= without {
             return (1.0, sum_before_peak, share);
         }

@@ -20,6 +20,7 @@
 mod energy;
 mod exit;
 mod focal_lines;
+mod meeting;
 mod ray;
 mod surface_event;
 mod symmetry_plane;
@@ -27,7 +28,9 @@ mod tracer;
 mod wavefront;
 
 pub use energy::{Fates, energy_by_fate};
-pub use exit::{Exit, transfer};
+pub use exit::Exit;
+pub(crate) use exit::transfer;
+pub(crate) use meeting::Meeting;
 pub use symmetry_plane::{PlaneRay, Rainbow, SymmetryPlane};
-pub use tracer::{Meeting, Remainder, Tracer};
+pub use tracer::{Remainder, Tracer};
 pub use wavefront::Wavefront;

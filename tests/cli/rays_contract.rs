@@ -207,3 +207,70 @@ fn memory_of_many_rays_is_announced_and_refused() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("rays_across = 1000") && message.contains("GiB"), "{message}");
 }
+
+/// What `scatter` says of intensities by rays, against Lorenz–Mie: over all angles, and straight back, where the
+/// glory of n = 2 is fifty times too bright.
+#[test]
+fn single_directions_say_what_they_are_worth() {
+    for index in [1.1, 1.3314, 1.5, 1.7, 2.0, 2.42, 0.75] {
+        let line = format!("--size-parameter 600 --index {index} --theta 10:170:0.4");
+        let found = scatter(&format!("--method rays {line}"));
+        let exact = scatter(&format!("--method mie {line}"));
+        let s11 = |answer: &Value, i: usize| -> f64 {
+            let part = |name: &str, k: usize| answer[name][i][k].as_f64().unwrap().powi(2);
+            let square = |name: &str| part(name, 0) + part(name, 1);
+            0.5 * (square("s1") + square("s2") + square("s3") + square("s4"))
+        };
+        let (mut off, mut told) = (0.0, 0.0);
+        for i in 0..found["theta_deg"].as_array().unwrap().len() {
+            off += (s11(&found, i) - s11(&exact, i)).powi(2);
+            let stated = found["error_estimate_by_theta"][i].as_f64().unwrap();
+            told += (stated * s11(&exact, i)).powi(2);
+        }
+        let back = |answer: &Value| answer["q_back"].as_f64().unwrap();
+        let off_back = (back(&found) / back(&exact) - 1.0).abs();
+        let told_back = found["error_estimate_q_back"].as_f64().unwrap();
+        let ratio = (off / told).sqrt();
+        println!("n = {index}: true over stated {ratio:.2}; back {off_back:.3} ({told_back:.3})");
+        assert!((0.5..2.0).contains(&ratio), "n = {index}: {ratio}");
+        assert!((off_back - told_back).abs() < 1e-6 * (1.0 + off_back), "n = {index}: {told_back}");
+        assert!(exact["error_estimate_by_theta"].is_null());
+    }
+}
+
+/// With the peak apart a table sums to what is not in the peak, whose share is the shadow's but for its edge, and
+/// beyond the peak it is what it is with the peak inside.
+#[test]
+fn a_peak_apart_leaves_the_rest_as_it_is() {
+    for (particle, angles) in [
+        ("shape = \"sphere\"\nradius_mm = 0.05", 181),
+        ("shape = \"sphere\"\nradius_mm = 0.5", 1801),
+        ("shape = \"raindrop\"\nradius_mm = 0.5", 181),
+        ("shape = \"raindrop\"\nradius_mm = 1.0", 361),
+        ("shape = \"spheroid\"\naxis_ratio = 0.9\nradius_mm = 0.1", 181),
+        ("shape = \"spheroid\"\naxis_ratio = 0.9\nradius_mm = 0.02", 361),
+    ] {
+        let table = |peak: &str| {
+            let scene = scene(&format!(
+                "[particle]\n{particle}\nmedium = {{ index = [1.333, 0.0] }}\n[light]\n\
+                 wavelengths_nm = [650]\n[table]\n\
+                 theta_deg = {{ from = 0, to = 180, count = {angles} }}\n\
+                 azimuth_deg = {{ from = 0, to = 360, count = 37 }}\nforward_peak = \"{peak}\"\n\
+                 [model]\nmethod = \"rays\"\n"
+            ));
+            simulate::table(&scene).unwrap()
+        };
+        let (apart, whole) = (table("separate"), table("cell_average"));
+        let (slab, other) = (&apart.slabs[0], &whole.slabs[0]);
+        let sum = slab.sum(&apart.header.axes);
+        println!("{particle}, {angles}: share {:.5}, sum {sum:.5}", slab.peak_share);
+        assert!((sum + slab.peak_share - 1.0).abs() < 1e-3);
+        // a table of 1° has the fringes of such drops by chance
+        assert!((slab.peak_share - 0.5).abs() < 0.025, "{}", slab.peak_share);
+        let beyond = ndarray::s![0, angles / 3.., ..];
+        let (rest, all) = (slab.values.slice(beyond), other.values.slice(beyond));
+        let off = (&rest - &all).mapv(|d| d * d).sum() / all.mapv(|v| v * v).sum();
+        println!("beyond 60 degrees the peak is {:.1e} of the intensity", off.sqrt());
+        assert!(off.sqrt() < 0.03, "{off}");
+    }
+}

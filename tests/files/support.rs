@@ -140,28 +140,11 @@ pub fn mie_table(
             Array3::from_shape_fn((quantity.elements(), theta_count, 1), |(element, i, _)| {
                 (matrices[i][element / 4][element % 4] / sum) as f32
             });
-        let efficiencies = sphere.efficiencies();
-        let area = PI * radius * radius;
-        Slab {
-            wavelength,
-            index: Complex64::new(index, 0.0),
-            values,
-            caustic_order: None,
-            scattering_cross_section: efficiencies.q_sca * area,
-            extinction_cross_section: efficiencies.q_ext * area,
-            absorption_cross_section: efficiencies.q_abs * area,
-            forward_extinction: None,
-            asymmetry: efficiencies.asymmetry,
-            energy: None,
-            sum_before_peak: 1.0,
-            peak_share: 0.0,
-            error_estimate: 0.0,
-            error_by_band: 0.0,
-            tolerance_met: None,
-            error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
-            left_out: 0.0,
-            methods: Vec::new(),
-        }
+        let q = sphere.efficiencies();
+        let sections = [q.q_sca, q.q_ext].map(|efficiency| efficiency * PI * radius * radius);
+        let place = (wavelength, Complex64::new(index, 0.0));
+        let slab = Slab::plain(place, values, sections, q.asymmetry).with_error(0.0);
+        Slab { sum_before_peak: 1.0, ..slab }
     });
     let slabs = slabs.collect();
     PhaseTable { header, slabs }

@@ -1,9 +1,7 @@
 //! Tables for tests: spheres by Lorenz–Mie, made with nothing but the series.
 
 use gonio::medium::Medium;
-use gonio::phase_table::{
-    Averaging, Axes, Bodies, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
-};
+use gonio::phase_table::{Axes, PhaseTable, Quantity, Slab, TableHeader};
 use gonio::series::lorenz_mie::Sphere;
 use ndarray::Array3;
 use num_complex::Complex64;
@@ -19,24 +17,6 @@ pub fn degrees(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 pub fn visible(count: usize) -> Vec<f64> {
     range(380e-9, 720e-9, count)
-}
-
-fn header(radius: f64, axes: Axes, quantity: Quantity) -> TableHeader {
-    TableHeader {
-        rotational_symmetry: axes.phi.len() == 1,
-        axes,
-        quantity,
-        forward_peak: ForwardPeak::Point,
-        method: "mie".into(),
-        shape: "sphere".into(),
-        radius,
-        sun_elevation: 0.0,
-        bodies: Some(Bodies::sphere(radius)),
-        averaging: Averaging::default(),
-        tolerance: f64::NAN,
-        scene_toml: String::new(),
-        command_line: String::new(),
-    }
 }
 
 /// A water sphere of `radius` (m); elements as `quantity` says, one azimuth.
@@ -61,11 +41,11 @@ pub fn sphere(
                 Array3::from_shape_fn((quantity.elements(), theta.len(), 1), |(e, t, _)| {
                     (scale * element(amplitudes[t], e)) as f32
                 });
-            slab(w, index, values, q.q_sca * area, q.q_ext * area, q.asymmetry)
+            slab((w, index), values, [q.q_sca * area, q.q_ext * area], q.asymmetry)
         })
         .collect();
     let axes = Axes { wavelength, theta, phi: vec![0.0] };
-    PhaseTable { header: header(radius, axes, quantity), slabs }
+    PhaseTable { header: TableHeader::of_sphere(radius, axes, quantity), slabs }
 }
 
 /// Mueller element of a sphere (Bohren & Huffman 1983, eq. 4.77), row by row.
@@ -81,34 +61,15 @@ fn element((s1, s2): (Complex64, Complex64), index: usize) -> f64 {
     }
 }
 
+/// A slab without error, normalised.
 fn slab(
-    wavelength: f64,
-    index: Complex64,
+    place: (f64, Complex64),
     values: Array3<f32>,
-    scattering: f64,
-    extinction: f64,
+    [scattering, extinction]: [f64; 2],
     asymmetry: f64,
 ) -> Slab {
-    Slab {
-        wavelength,
-        index,
-        values,
-        caustic_order: None,
-        scattering_cross_section: scattering,
-        extinction_cross_section: extinction,
-        absorption_cross_section: extinction - scattering,
-        forward_extinction: None,
-        asymmetry,
-        energy: None,
-        sum_before_peak: 1.0,
-        peak_share: 0.0,
-        error_estimate: 0.0,
-        error_by_band: 0.0,
-        tolerance_met: None,
-        error_by_direction: [0.0; gonio::phase_table::ERROR_BANDS],
-        left_out: 0.0,
-        methods: Vec::new(),
-    }
+    let slab = Slab::plain(place, values, [scattering, extinction], asymmetry).with_error(0.0);
+    Slab { sum_before_peak: 1.0, ..slab }
 }
 
 /// The table of a sphere spread over `phi`, its curve shifted by `shift` (radians) · cos φ: a

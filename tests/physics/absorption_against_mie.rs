@@ -102,9 +102,9 @@ fn cross_sections_are_those_of_the_series() {
     for k in EXTINCTIONS {
         let tracer = Tracer::new(&shape, index(k), X, last_order(1.333, 0.01));
         let fates = energy_by_fate(&tracer, &Wavefront::midpoints(&shape, 100, 4));
-        let (_, sections) =
-            simulate::scatter_with_sections(&all, index(k), X, &[(0.5, 0.0)], fates.absorbed, None)
-                .unwrap();
+        let seen =
+            simulate::scatter_with_sections(&all, index(k), X, &[(0.5, 0.0)], fates.absorbed, None);
+        let sections = seen.unwrap().sections;
         let (q_ext, q_abs) = (sections.extinction / PI, sections.absorption / PI);
         let exact = Sphere::new(X, index(k)).unwrap().efficiencies();
         println!(

@@ -2,10 +2,8 @@
 //! brute-force Huygens–Fresnel sum; and the check of meridians by beams.
 
 use gonio::farfield::FarFieldSettings;
-use gonio::farfield::gaussian_beams::GaussianBeams;
-use gonio::farfield::patches::sheets;
-use gonio::farfield::reference::huygens_fresnel::HuygensFresnel;
 use gonio::farfield::{Direction, FarField, WaveField};
+use gonio::farfield::{GaussianBeams, HuygensFresnel, sheets};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};
@@ -132,7 +130,7 @@ fn tangled_reflection_is_that_of_plain_rays() {
     let tangled = FarField::meridians(&tracer, &settings);
     assert_eq!(tangled.irregular(), [0]);
     let wavefront = Wavefront::corners(&shape, 300, 600, 0.01);
-    let plain = FarField::patches(&shape, sheets::sheets(&tracer, &wavefront, &[0]), x);
+    let plain = FarField::patches(&shape, sheets(&tracer, &wavefront, &[0]), x);
     let directions: Vec<(f64, f64)> =
         angles(30.0, 150.0, 240).into_iter().map(|theta| (theta, phi)).collect();
     let error = error(&tangled.scatter(&directions, false), &plain.scatter(&directions, false));

@@ -3,8 +3,8 @@
 
 use crate::support::{angles, relative_l2};
 use gonio::farfield::FarFieldSettings;
-use gonio::farfield::reference::huygens_fresnel::{HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
+use gonio::farfield::{HuygensFresnel, Wave};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};

@@ -1,9 +1,9 @@
 //! Orders of small particles as sums over partial waves from rays, against Debye terms: a sphere, and one
 //! flattened by 1e-7 with the light aslant, over all scattering angles and both amplitudes.
 
+use gonio::farfield::PartialWaves;
 use gonio::farfield::WaveField;
 use gonio::farfield::assignment::Thresholds;
-use gonio::farfield::partial_waves::PartialWaves;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{Engine, Plan};
 use gonio::series::debye::{DebyeSeries, Term};

@@ -230,7 +230,9 @@ fn spheroids_state_their_error() {
         let found = rays(shape.clone(), first.x, &directions);
         let orders = (0..=last_order(INDEX, TOLERANCE)).collect();
         let plan = Plan::direct(shape, 1.0, Engine::Meridians, orders, true, TOLERANCE, None);
-        let stated = simulate::worth_of_rays(&plan, INDEX.into(), first.x).unwrap();
+        let stated =
+            simulate::scatter_with_sections(&plan, INDEX.into(), first.x, &[(0.5, 0.0)], 0.0, None);
+        let stated = stated.unwrap().worth;
         let (mut off, mut told, mut bands) = (0.0, 0.0, 0.0);
         for band in 3..43 {
             let near = |i: usize| {

@@ -15,6 +15,7 @@ mod farfield_spheroid;
 mod medium_input;
 mod medium_kramers_kronig;
 mod medium_references;
+mod one_drop;
 mod random_scenes;
 mod reciprocity;
 mod series_debye_reference;

@@ -110,7 +110,7 @@ fn the_catalogue_at_fourteen_lines() {
         }
         for (key, lines) in [("vd", AbbeLines::HeliumD), ("ve", AbbeLines::MercuryE)] {
             if let Some(expected) = values[key].as_f64() {
-                let found = Abbe::of_medium(lines, &medium).unwrap().number;
+                let found = medium.abbe(lines).unwrap().number;
                 assert!((found - expected).abs() < 1e-4, "{name} {key}: {found}");
             }
         }
@@ -125,7 +125,7 @@ fn schott_glasses_to_catalogue_digits() {
     assert_eq!(glasses.len(), 22);
     for glass in glasses {
         let (nd, vd) = glass.catalogue.unwrap();
-        let found = Abbe::of_medium(AbbeLines::HeliumD, &medium(&glass.name)).unwrap();
+        let found = medium(&glass.name).abbe(AbbeLines::HeliumD).unwrap();
         assert!((found.index - nd).abs() <= 0.5e-5 + 1e-9, "{}: {}", glass.name, found.index);
         assert!((found.number - vd).abs() <= 0.5e-2 + 1e-9, "{}: {}", glass.name, found.number);
     }
@@ -143,7 +143,7 @@ fn cauchy_from_index_and_abbe_number() {
         ("sapphire-o", 1.752058, 0.005563),
     ];
     for (name, a, b) in table {
-        let abbe = Abbe::of_medium(AbbeLines::HeliumD, &medium(name)).unwrap();
+        let abbe = medium(name).abbe(AbbeLines::HeliumD).unwrap();
         let found = abbe.to_cauchy(AbbeLines::HeliumD).unwrap();
         assert!((found[0] - a).abs() < 1e-6, "{name}: A = {}, not {a}", found[0]);
         assert!((found[1] - b).abs() < 1e-6, "{name}: B = {}, not {b}", found[1]);

@@ -26,7 +26,8 @@ enum Outcome {
 
 /// Scenes that long runs found wrong and that have been mended since: absorption of a list of orders, k far
 /// below rounding with n < 1, terms whose light is absorbed inside.
-const FOUND: [u64; 6] = [5444, 10384, 13471, 21359, 3621, 6855];
+const FOUND: [u64; 12] =
+    [5444, 10384, 13471, 21359, 3621, 6855, 3305, 9309, 25127, 31723, 66395, 77645];
 
 /// As `gonio table` does: read and check the scene, compute, check.
 fn run(toml: &str) -> Outcome {
@@ -748,7 +749,8 @@ mod judge {
             ensure(s(0) >= 0.0, || format!("S11 = {}", s(0)))?;
             if table.header.quantity == Quantity::Mueller {
                 let polarised = s(4).hypot(s(8)).hypot(s(12));
-                ensure(polarised <= s(0) * (1.0 + 1e-5), || {
+                // the last bits of the faintest numbers of f32
+                ensure(polarised <= s(0) * (1.0 + 1e-5) + 1e-43, || {
                     format!("unpolarised light leaves polarised by {}", polarised / s(0))
                 })?;
             }
@@ -822,7 +824,8 @@ mod judge {
             return Ok("no truth");
         }
         let right = truth::mie(x, m);
-        let slack = 1e-7 * (1.0 + inside / 100.0) + 1e-13 / x.powi(3);
+        // The other program's own rounding, seen beside 60 digits: it grows where little is scattered.
+        let slack = 1e-7 * (1.0 + inside / 100.0) + 1e-13 / x.powi(3) + 5e-14 / (m - 1.0).norm();
         close("Q_ext", ext, right.extinction, slack * right.extinction.abs())?;
         close("Q_sca", sca, right.scattering, slack * right.extinction.abs())?;
         if scene.sun_disc == SunDisc::None {
@@ -905,12 +908,16 @@ mod judge {
             .map(|(s1, s2)| 0.5 * (s1.norm_sqr() + s2.norm_sqr()) * scale)
             .collect();
         let found = |i: usize| f64::from(slab.values[[0, i, 0]]);
-        // Within twenty lobes of the forward peak a sample is the mean over its cell.
+        // A sample whose cell reaches into twenty lobes of the forward peak is the mean over it.
         let means = table.header.forward_peak == ForwardPeak::CellAverage;
         let first = if means { 25.0 * PI / x } else { 0.0 };
+        let inner_edge = |i: usize| 0.5 * (theta[i.max(1) - 1] + theta[i]);
         let (mut off, mut all, mut told, mut counted) = (0.0, 0.0, 0.0, 0);
         let (mut bands, mut stated_bands, mut filled) = (0.0, 0.0, 0);
-        let mut i = theta.partition_point(|t| *t < first);
+        let mut i = 0;
+        while i < theta.len() && inner_edge(i) < first {
+            i += 1;
+        }
         while i < theta.len() {
             let band = (theta[i] / error_theta(1)).round() as usize;
             let (mut band_off, mut band_all, mut samples) = (0.0, 0.0, 0);

@@ -1,6 +1,6 @@
 //! Does the computation of a table fit into this machine's memory, or into what it may take?
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::Args;
 use gonio::plan::{Engine, Plan};
 use gonio::scene::{Scene, human_bytes};

@@ -1,6 +1,6 @@
 //! One particle as `gonio scatter` and `gonio rays` take it: its shape, its index, its orders.
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::ValueEnum;
 use gonio::medium::Medium;
 use gonio::scatter::DebyeTerms;

@@ -2,7 +2,7 @@
 //!
 //! Axes of scenes (`FROM:TO:COUNT` or a list) are [`gonio::scene::Grid`]s.
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use gonio::medium::wavelength_of_ghz;
 
 /// Shares of a step by which rounding may miss the last value: 380:780:0.1 shall hold 780.

@@ -1,7 +1,7 @@
 //! `gonio batch`: many tables, on one machine or many.
 
 use crate::cli::args::memory::MemoryFlag;
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::{Args, Subcommand};
 use gonio::batch::{BatchPlan, Event, PlannedTable, Selection, ShardStatus, Sweep};
 use gonio::fault::Blame;
@@ -290,9 +290,8 @@ fn parse_slice(text: &str) -> Result<(usize, usize), String> {
 #[cfg(target_os = "linux")]
 fn die_with_parent() -> Result<()> {
     let parent = std::os::unix::process::parent_id();
-    // SAFETY: a plain system call with constant arguments.
-    let status = unsafe { libc::prctl(libc::PR_SET_PDEATHSIG, libc::SIGTERM) };
-    if status != 0 {
+    let signal = Some(rustix::process::Signal::TERM);
+    if rustix::process::set_parent_process_death_signal(signal).is_err() {
         return Err(Failure::usage("--die-with-parent: refused by the system"));
     }
     // A parent that ended before the call sends no signal.

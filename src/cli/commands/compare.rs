@@ -1,7 +1,7 @@
 //! `gonio compare`: how far a result is from Lorenz–Mie, or one table from another.
 
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::{notes, progress};
-use crate::cli::{Failure, Result};
 use clap::Args;
 use gonio::compare::against_mie::SphereRuns;
 use gonio::compare::{Case, Entry, measure, page, worst};

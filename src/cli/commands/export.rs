@@ -2,7 +2,7 @@
 
 use crate::cli::args::polarisation::PolarisationFlag;
 use crate::cli::args::ranges::angle_span;
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::{Args, ValueEnum};
 use gonio::export::average::{Averaged, average};
 use gonio::export::notes::{density_note, notes, too_few_moments};

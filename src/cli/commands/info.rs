@@ -1,6 +1,6 @@
 //! `gonio info`: what is in a table.
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::Args;
 use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, decimal_bytes};
 use gonio::math::digits::to_digits;

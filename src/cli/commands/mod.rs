@@ -7,6 +7,7 @@ pub mod export;
 pub mod info;
 pub mod lee;
 pub mod material;
+pub mod plan;
 pub mod radar;
 pub mod rays;
 pub mod render;

@@ -2,8 +2,8 @@
 
 use crate::cli::args::particle::{Index, parse_index};
 use crate::cli::args::ranges::{positive_list, positive_range};
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot;
-use crate::cli::{Failure, Result};
 use clap::{Args, ValueEnum};
 use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
 

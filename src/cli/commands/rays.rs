@@ -3,8 +3,8 @@
 use crate::cli::args::particle::{
     Index, ShapeFlags, ShapeKind, parse_index, raindrop_model, water_index,
 };
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot::write_whole;
-use crate::cli::{Failure, Result};
 use clap::Args;
 use gonio::render::draw_ray_paths;
 use gonio::shape::Shape;

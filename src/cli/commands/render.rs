@@ -1,6 +1,6 @@
 //! `gonio render`: a picture of a rainbow.
 
-use crate::cli::Result;
+use crate::cli::failure::Result;
 use crate::cli::show::notes;
 use clap::Args;
 use gonio::render::bow::{BowScene, DropKeys};

@@ -5,12 +5,13 @@ use crate::cli::args::particle::{
     Index, ShapeFlags, ShapeKind, parse_index, parse_orders, raindrop_model, water_index,
 };
 use crate::cli::args::ranges::scattering_angles;
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::{Args, ValueEnum};
+use gonio::farfield::ErrorEstimate;
 use gonio::math::digits::to_digits;
 use gonio::medium::wavelength_of_ghz;
 use gonio::optics::AmplitudeMatrix;
-use gonio::plan::{DOUBTFUL_PHASE_SHIFT, check_rays};
+use gonio::plan::{DOUBTFUL_PHASE_SHIFT, check_rays, phase_shift};
 use gonio::scatter::{
     self, DebyeTerms, RayDiffraction, RayRequest, Request, Scattering, Size, SizeConflict,
 };
@@ -121,7 +122,7 @@ pub fn run(args: ScatterArgs) -> Result<()> {
         MethodName::Tmatrix => scatter::t_matrix(&job.request, &shape(&args, &job)?)?,
     };
     let seconds = start.elapsed().as_secs_f64();
-    note(&seen);
+    note(&job, &seen);
     if args.json {
         println!("{}", to_json(&args, &job, &seen, seconds));
     } else {
@@ -293,7 +294,7 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Scattering> {
 }
 
 /// Says on stderr where a result is worth less than was asked.
-fn note(seen: &Scattering) {
+fn note(job: &Job, seen: &Scattering) {
     if let Some(left) = seen.remainder.filter(|left| left.not_converged) {
         eprintln!(
             "note: the sum of Debye terms up to order {} has not converged: what is left out is {:.1e} of \
@@ -301,23 +302,51 @@ fn note(seen: &Scattering) {
             left.last_order, left.share
         );
     }
-    if let Some(doubt) = seen.doubt {
+    let Some(worth) = seen.worth else { return };
+    let phase_shift = phase_shift(job.request.index, job.request.size_parameter);
+    if phase_shift < DOUBTFUL_PHASE_SHIFT {
         eprintln!(
-            "note: the phase shift through the particle, 2x|n - 1| = {:.1}, is small for rays \
+            "note: the phase shift through the particle, 2x|n - 1| = {phase_shift:.1}, is small for rays \
              (below {DOUBTFUL_PHASE_SHIFT}): intensities from 10 to 170 degrees are {:.0} % off, \
              weighted by intensity, and {:.0} % on average over angles",
-            doubt.phase_shift,
-            100.0 * doubt.worth.weighted,
-            100.0 * doubt.worth.by_band
+            100.0 * worth.weighted,
+            100.0 * worth.by_band
+        );
+    }
+    let doubtful: Vec<f64> = (job.theta_deg.iter().copied())
+        .filter(|theta| worth.at(theta.to_radians()) > NOTED_ERROR)
+        .collect();
+    let ends =
+        (doubtful.iter().copied().reduce(f64::min), doubtful.iter().copied().reduce(f64::max));
+    if let (Some(from), Some(to)) = ends {
+        eprintln!(
+            "note: {} of {} intensities, between {from} and {to} degrees, may be off by more than {:.0} %: see \
+             error_estimate_by_theta of --json",
+            doubtful.len(),
+            job.theta_deg.len(),
+            100.0 * NOTED_ERROR
+        );
+    }
+    let back = worth.straight_back;
+    if back > NOTED_ERROR {
+        eprintln!(
+            "note: straight back rays may be off by {:.0} %: q_back is doubtful",
+            100.0 * back
         );
     }
 }
+
+/// Relative error of an intensity above which it is said.
+const NOTED_ERROR: f64 = 0.25;
 
 fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds: f64) -> Value {
     let pairs = |f: fn(&AmplitudeMatrix) -> Complex64| -> Vec<[f64; 2]> {
         seen.amplitudes.iter().map(|s| [f(s).re, f(s).im]).collect()
     };
     let budget = &seen.efficiencies;
+    let by_theta = |worth: &ErrorEstimate| -> Vec<f64> {
+        job.request.theta.iter().map(|&theta| worth.at(theta)).collect()
+    };
     json!({
         "method": match args.method {
             MethodName::Rays => "rays",
@@ -339,7 +368,9 @@ fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds: f64) -> Va
         "q_back": budget.q_back,
         "asymmetry": budget.asymmetry,
         "diffraction_included": seen.diffraction_included,
-        "error_estimate": seen.error_estimate,
+        "error_estimate": seen.worth.map(|worth| worth.weighted),
+        "error_estimate_by_theta": seen.worth.map(|worth| by_theta(&worth)),
+        "error_estimate_q_back": seen.worth.map(|worth| worth.straight_back),
         "remainder": seen.remainder.map(|left| left.largest),
         "remainder_share": seen.remainder.map(|left| left.share),
         "seconds": seconds,

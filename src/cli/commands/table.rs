@@ -2,8 +2,8 @@
 
 use crate::cli::args::memory::MemoryFlag;
 use crate::cli::args::scene_flags::SceneFlags;
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::progress;
-use crate::cli::{Failure, Result};
 use clap::Args;
 use gonio::hdf5::{TableWriter, WriteOptions};
 use gonio::phase_table::Slab;

@@ -1,6 +1,6 @@
 //! `gonio validate`: check a table or a scene.
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use clap::Args;
 use gonio::hdf5::{SweepReader, TableError, TableReader, position_of};
 use gonio::scene::{Scene, SceneFile};

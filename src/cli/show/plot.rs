@@ -2,7 +2,7 @@
 //!
 //! A figure draws itself on any backend, and the ending of the file's name picks PNG or SVG.
 
-use crate::cli::{Failure, Result};
+use crate::cli::failure::{Failure, Result};
 use gonio::render::ensure_font;
 use plotters::coord::Shift;
 use plotters::prelude::*;

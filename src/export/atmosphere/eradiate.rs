@@ -6,19 +6,17 @@
 //! Tables of several sizes make the layout that its pull request 599 calls Prt v1: dimensions `reff`
 //! (µm) and `veff` between `w` and the angles.
 
+use crate::export::ExportError;
 use crate::export::atmosphere::database::{albedo, attributes, variable};
 use crate::export::atmosphere::legendre::expand;
 use crate::export::atmosphere::size_grid::SizeGrid;
+use crate::export::atmosphere::source::Source;
 use crate::export::average::{Averaged, Curve};
-use crate::export::{ExportError, invalid};
 use crate::hdf5::{NetcdfFile, NetcdfValues, NetcdfVariable};
 
 /// What is written: sizes, their averages, and the names of the dimensions between wavelength and angle.
 struct Layout<'a> {
-    grid: &'a SizeGrid,
-    averaged: &'a [Averaged],
-    first: &'a Averaged,
-    moments: usize,
+    source: Source<'a>,
     sizes: &'static [&'static str],
 }
 
@@ -31,12 +29,11 @@ pub fn database(
     averaged: &[Averaged],
     moments: usize,
 ) -> Result<NetcdfFile, ExportError> {
-    let (Some(table), Some(first)) = (grid.tables.first(), averaged.first()) else {
-        return Err(invalid("table", "none", "at least one table"));
-    };
+    let source = Source::new(grid, averaged, moments)?;
+    let (table, first) = (&grid.tables[0], source.first);
     let many = grid.tables.len() > 1;
     let sizes: &[&str] = if many { &["reff", "veff"] } else { &[] };
-    let layout = Layout { grid, averaged, first, moments, sizes };
+    let layout = Layout { source, sizes };
     let mut variables = layout.coordinates();
     variables.extend(layout.optics());
     let mut dimensions = vec![
@@ -63,8 +60,8 @@ impl Layout<'_> {
 
     /// Curves by wavelength, then by size, each with its average.
     fn curves(&self) -> impl Iterator<Item = (&Averaged, &Curve)> {
-        let wavelengths = self.first.curves.len();
-        (0..wavelengths).flat_map(|w| self.averaged.iter().map(move |a| (a, &a.curves[w])))
+        let wavelengths = self.source.first.curves.len();
+        (0..wavelengths).flat_map(|w| self.source.averaged.iter().map(move |a| (a, &a.curves[w])))
     }
 
     fn number(&self, value: impl Fn(&Curve) -> f64) -> NetcdfValues {
@@ -73,7 +70,7 @@ impl Layout<'_> {
 
     /// Wavelengths, sizes, elements, moments and angles.
     fn coordinates(&self) -> Vec<NetcdfVariable> {
-        let (first, count) = (self.first, self.curves().count());
+        let (first, count) = (self.source.first, self.curves().count());
         let wavelengths = first.curves.iter().map(|curve| curve.wavelength * 1e9).collect();
         let elements = first.elements().iter().map(|(name, _)| name.to_string()).collect();
         let theta: Vec<f64> = first.theta.iter().rev().copied().collect();
@@ -92,7 +89,12 @@ impl Layout<'_> {
                 NetcdfValues::Texts(elements),
                 &[("standard_name", "component"), ("long_name", "phase matrix component")],
             ),
-            variable("imom", &["imom"], NetcdfValues::I32((0..self.moments as i32).collect()), &[]),
+            variable(
+                "imom",
+                &["imom"],
+                NetcdfValues::I32((0..self.source.moments as i32).collect()),
+                &[],
+            ),
             variable(
                 "mu",
                 &by_angle,
@@ -107,7 +109,7 @@ impl Layout<'_> {
             ),
         ];
         if !self.sizes.is_empty() {
-            let radii = self.grid.radii.iter().map(|radius| radius * 1e6).collect();
+            let radii = self.source.grid.radii.iter().map(|radius| radius * 1e6).collect();
             variables.push(variable(
                 "reff",
                 &["reff"],
@@ -117,7 +119,7 @@ impl Layout<'_> {
             variables.push(variable(
                 "veff",
                 &["veff"],
-                NetcdfValues::F64(self.grid.variances.clone()),
+                NetcdfValues::F64(self.source.grid.variances.clone()),
                 &named("effective_variance", "effective variance", "dimensionless"),
             ));
         }
@@ -126,7 +128,7 @@ impl Layout<'_> {
 
     /// Extinction, albedo, phase matrix and its moments.
     fn optics(&self) -> Vec<NetcdfVariable> {
-        let (plain, moments) = (self.along(&[]), self.moments);
+        let (plain, moments) = (self.along(&[]), self.source.moments);
         let counts = self.curves().count();
         let count = |length: usize| NetcdfValues::I32(vec![length as i32; counts]);
         let pmom = self.curves().flat_map(|(a, curve)| {
@@ -159,7 +161,7 @@ impl Layout<'_> {
             variable(
                 "nangles",
                 &plain,
-                count(self.first.theta.len()),
+                count(self.source.first.theta.len()),
                 &[
                     ("standard_name", "n_angular_samples"),
                     ("long_name", "number of angular samples"),
@@ -189,9 +191,9 @@ impl Layout<'_> {
 
     /// Values by element, wavelength, size and ascending μ, scaled to Eradiate's integral.
     fn phase_matrix(&self) -> Vec<f64> {
-        let mu: Vec<f64> = self.first.theta.iter().rev().map(|theta| theta.cos()).collect();
+        let mu: Vec<f64> = self.source.first.theta.iter().rev().map(|theta| theta.cos()).collect();
         let mut phase = Vec::new();
-        for (_, element) in self.first.elements() {
+        for (_, element) in self.source.first.elements() {
             for (_, curve) in self.curves() {
                 let p11: Vec<f64> = curve.elements[0].iter().rev().copied().collect();
                 let scale = 2.0 / trapezoid(&mu, &p11);

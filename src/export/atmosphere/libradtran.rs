@@ -9,6 +9,7 @@
 use crate::export::atmosphere::database::{albedo, attributes, variable};
 use crate::export::atmosphere::legendre::expand;
 use crate::export::atmosphere::size_grid::{SizeGrid, untold};
+use crate::export::atmosphere::source::Source;
 use crate::export::average::{Averaged, Curve};
 use crate::export::{ExportError, invalid};
 use crate::hdf5::{NetcdfFile, NetcdfValues, NetcdfVariable};
@@ -20,10 +21,7 @@ const DENSITY: &str = "medium_density";
 
 /// What is written: by wavelength, then by size.
 struct Layout<'a> {
-    grid: &'a SizeGrid,
-    averaged: &'a [Averaged],
-    first: &'a Averaged,
-    moments: usize,
+    source: Source<'a>,
     /// Density (kg/m³) and mass of the mean particle (kg), per table.
     masses: Vec<(f64, f64)>,
 }
@@ -38,15 +36,14 @@ pub fn database(
     averaged: &[Averaged],
     moments: usize,
 ) -> Result<NetcdfFile, ExportError> {
-    let (Some(table), Some(first)) = (grid.tables.first(), averaged.first()) else {
-        return Err(invalid("table", "none", "at least one table"));
-    };
+    let source = Source::new(grid, averaged, moments)?;
+    let (table, first) = (&grid.tables[0], source.first);
     if grid.variances.len() > 1 {
         let accepted = "one effective variance: libRadtran's layout has effective radii alone";
         return Err(invalid("sweep", format!("{} variances", grid.variances.len()), accepted));
     }
     let masses = grid.tables.iter().map(mass).collect::<Result<_, _>>()?;
-    let layout = Layout { grid, averaged, first, moments, masses };
+    let layout = Layout { source, masses };
     let mut variables = layout.angular();
     variables.extend(layout.optics());
     let variance = grid.variances[0].to_string();
@@ -78,9 +75,9 @@ fn mass(table: &PhaseTable) -> Result<(f64, f64), ExportError> {
 impl Layout<'_> {
     /// Curves by wavelength, then by size, each with the number of its table.
     fn curves(&self) -> impl Iterator<Item = (usize, &Curve)> {
-        let wavelengths = self.first.curves.len();
+        let wavelengths = self.source.first.curves.len();
         (0..wavelengths).flat_map(|w| {
-            self.averaged.iter().enumerate().map(move |(table, a)| (table, &a.curves[w]))
+            self.source.averaged.iter().enumerate().map(move |(table, a)| (table, &a.curves[w]))
         })
     }
 
@@ -90,14 +87,15 @@ impl Layout<'_> {
 
     /// Wavelengths and radii, angles, phase matrix and its moments.
     fn angular(&self) -> Vec<NetcdfVariable> {
-        let (first, moments) = (self.first, self.moments);
+        let (first, moments) = (self.source.first, self.source.moments);
         let wavelengths = first.curves.iter().map(|curve| curve.wavelength * 1e6).collect();
         let lines = self.curves().count() * first.elements().len();
         let full = |count: usize| NetcdfValues::I32(vec![count as i32; lines]);
         let degrees: Vec<f32> = first.theta.iter().map(|t| t.to_degrees() as f32).collect();
         let (phase, pmom) = self.phase_and_moments();
         let micrometres = [("units", "um")];
-        let radii = NetcdfValues::F64(self.grid.radii.iter().map(|radius| radius * 1e6).collect());
+        let radii =
+            NetcdfValues::F64(self.source.grid.radii.iter().map(|radius| radius * 1e6).collect());
         let names = first.elements().iter().map(|(name, _)| name.to_string()).collect();
         let by_angle = ["nlam", "nreff", "nphamat", "nthetamax"];
         vec![
@@ -136,12 +134,12 @@ impl Layout<'_> {
     fn phase_and_moments(&self) -> (Vec<f32>, Vec<f32>) {
         let (mut phase, mut pmom) = (Vec::new(), Vec::new());
         for (table, curve) in self.curves() {
-            let expanded = expand(&self.averaged[table], curve, self.moments);
+            let expanded = expand(&self.source.averaged[table], curve, self.source.moments);
             let [a1, a2, a3, a4] = &expanded.alpha;
             let [b1, b2] = &expanded.beta;
             // In the order of `Averaged::elements`: 11, 12, 33, 34, 22, 44.
             for (&(_, element), moments) in
-                self.first.elements().iter().zip([a1, b1, a3, b2, a2, a4])
+                self.source.first.elements().iter().zip([a1, b1, a3, b2, a2, a4])
             {
                 phase.extend(curve.elements[element].iter().map(|v| (4.0 * PI * v) as f32));
                 pmom.extend(moments.iter().map(|v| *v as f32));
@@ -153,7 +151,7 @@ impl Layout<'_> {
     /// Extinction, albedo, asymmetry, index and density.
     fn optics(&self) -> Vec<NetcdfVariable> {
         let grid = ["nlam", "nreff"];
-        let slabs = &self.grid.tables[0].slabs;
+        let slabs = &self.source.grid.tables[0].slabs;
         let index = |value: fn(&crate::phase_table::Slab) -> f64| {
             NetcdfValues::F64(slabs.iter().map(value).collect())
         };

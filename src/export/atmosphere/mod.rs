@@ -6,3 +6,4 @@ mod legendre;
 pub mod libradtran;
 pub mod sasktran2;
 pub mod size_grid;
+mod source;

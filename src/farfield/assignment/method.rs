@@ -5,13 +5,13 @@ use std::fmt;
 /// What computes the wave of an order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Rays of scattering planes ([`crate::farfield::azimuth`]).
+    /// Rays of scattering planes ([`crate::farfield::PlaneSet`]).
     Planes,
-    /// [`crate::farfield::partial_waves`].
+    /// [`crate::farfield::PartialWaves`].
     PartialWaves,
-    /// [`crate::farfield::gaussian_beams`].
+    /// [`crate::farfield::GaussianBeams`].
     Beams,
-    /// [`crate::farfield::patches`].
+    /// [`crate::farfield::sheets`].
     Patches,
 }
 

@@ -3,6 +3,7 @@
 
 mod axis_waves;
 pub mod azimuthal_smoothness;
+mod blend;
 pub mod cut_layout;
 pub mod matching;
 pub mod order_planes;

@@ -1,21 +1,20 @@
 //! One order: its scattering planes at some azimuths, and its segments at any other.
 
 use super::azimuthal_smoothness::azimuthal_smoothness;
+use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, trace};
 use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
-use crate::farfield::branch::accumulate::Side;
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
+use crate::farfield::branch::samples::Side;
 use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
-use crate::farfield::impact_integral::near_grazing_layout::{self, NearGrazingLayout};
+use crate::farfield::impact_integral::near_grazing_layout::NearGrazingLayout;
+use crate::farfield::impact_integral::near_grazing_taper::taper;
 use crate::farfield::settings::FarFieldSettings;
-use crate::math::fused::multiply_add;
 use crate::math::half_turn::shares;
 use crate::trace::Tracer;
-use multiversion::multiversion;
-use multiversion::target::target_cfg_f;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
@@ -26,8 +25,6 @@ const HALF_TURN_STEPS_RIM: usize = 60;
 /// Planes too rough over azimuth for interpolation are so many times more; if that does not help, those
 /// asked for are traced one by one.
 const FINER: usize = 4;
-/// Neighbours in the interpolation over azimuth.
-const STENCIL: usize = 8;
 
 /// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
 pub(crate) struct OrderPlanes {
@@ -293,42 +290,6 @@ fn spans(planes: &[Vec<Segment>]) -> Vec<(f64, f64)> {
     (0..count).map(span).collect()
 }
 
-/// A weight for each number of a knot.
-type Weights = [f64; CHANNELS];
-
-/// Weighted sums of knots, number by number.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
-    "x86_64+avx2+fma",
-    "aarch64+neon"
-))]
-fn blend(knots: &mut [Knot], sources: &[&[Knot]; STENCIL], weights: &[Weights; STENCIL]) {
-    if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-        blend_with::<true>(knots, sources, weights);
-    } else {
-        blend_with::<false>(knots, sources, weights);
-    }
-}
-
-#[inline(always)]
-fn blend_with<const FMA: bool>(
-    knots: &mut [Knot],
-    sources: &[&[Knot]; STENCIL],
-    weights: &[Weights; STENCIL],
-) {
-    let count = sources.iter().map(|s| s.len()).fold(knots.len(), usize::min);
-    let sources = sources.map(|s| &s[..count]);
-    for (i, knot) in knots[..count].iter_mut().enumerate() {
-        let mut sum = [0.0; CHANNELS];
-        for (source, weights) in sources.iter().zip(weights) {
-            for c in 0..CHANNELS {
-                sum[c] = multiply_add::<FMA>(weights[c], source[i].channels()[c], sum[c]);
-            }
-        }
-        *knot.channels_mut() = sum;
-    }
-}
-
 /// Where the integral over rays near the rim takes over, if it serves this order.
 fn rim_layout(
     by: &Thresholds,
@@ -339,15 +300,7 @@ fn rim_layout(
     axis_gap: f64,
 ) -> Option<NearGrazingLayout> {
     let rotational = tracer.shape().rotational_symmetry();
-    let marks = near_grazing_layout::taper(
-        by,
-        tracer.index().re,
-        order,
-        x,
-        caustic_disorder,
-        axis_gap,
-        rotational,
-    )?;
+    let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rotational)?;
     Some(NearGrazingLayout::new(marks, rotational))
 }
 

@@ -9,8 +9,9 @@
 use super::matching::another;
 use super::order_planes::{Azimuths, OrderPlanes};
 use crate::farfield::assignment::{PlanesOutcome, Thresholds};
-use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
+use crate::farfield::branch::accumulate::add_segment;
 use crate::farfield::branch::knots::{Kind, Segment};
+use crate::farfield::branch::samples::{Samples, Side, Sums};
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;

@@ -4,13 +4,6 @@
 //! Knots of neighbouring planes are mixed number by number, so that all kinds are stored as one array,
 //! as wide as whole vector registers. Its places have names here, [`SingleKnot`] and [`PairKnot`], and
 //! nobody else counts them.
-//!
-//! ```
-//! use gonio::farfield::branch::knots::{Knot, SingleKnot};
-//! let single = SingleKnot { angle: 2.4, path: 3.0, ..SingleKnot::default() };
-//! assert_eq!(Knot::from(single).angle(), 2.4);
-//! assert_eq!(Knot::from(single).single(), single);
-//! ```
 
 use num_complex::Complex64;
 

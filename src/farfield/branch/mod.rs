@@ -3,4 +3,6 @@
 
 pub mod accumulate;
 pub mod knots;
+pub mod samples;
+mod wave_kernels;
 pub mod window;

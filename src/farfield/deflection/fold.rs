@@ -9,67 +9,14 @@
 //!
 //! `+` is the ray with the larger path; it has passed one focal line more.
 
+use super::pair_values::{PAIR_CHANNELS, PairValues};
+use super::root_path::RootPath;
 use super::scattering_plane::{Node, ScatteringPlane};
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::scalar::Scalar;
 use crate::shape::Silhouette;
 use crate::trace::Exit;
 use num_complex::Complex64;
-
-/// What is analytic in the two rays of a fold: mean path, ζ̂, `g₀` and `g₁` of S1 … S4.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairValues {
-    /// Mean path of the two rays.
-    pub path: f64,
-    /// `ζ̂`, the argument of the Airy functions but for the power of the size parameter.
-    pub zeta: f64,
-    /// `g₀` of S1 … S4.
-    pub sums: [Complex64; 4],
-    /// `g₁` of S1 … S4.
-    pub differences: [Complex64; 4],
-}
-
-/// The same as numbers of a series: path, ζ̂, then `g₀` and `g₁` (re, im by element).
-pub const PAIR_CHANNELS: usize = 18;
-
-impl From<[f64; PAIR_CHANNELS]> for PairValues {
-    fn from(channels: [f64; PAIR_CHANNELS]) -> Self {
-        let [path, zeta, elements @ ..] = channels;
-        let at = |k: usize| Complex64::new(elements[2 * k], elements[2 * k + 1]);
-        let (sums, differences) = ([0, 1, 2, 3].map(at), [4, 5, 6, 7].map(at));
-        Self { path, zeta, sums, differences }
-    }
-}
-
-impl From<PairValues> for [f64; PAIR_CHANNELS] {
-    fn from(values: PairValues) -> Self {
-        let mut channels = [values.path, values.zeta]
-            .into_iter()
-            .chain(values.sums.into_iter().chain(values.differences).flat_map(|g| [g.re, g.im]));
-        std::array::from_fn(|_| channels.next().unwrap_or_default())
-    }
-}
-
-impl PairValues {
-    /// `|g|²` of all elements.
-    fn size(&self) -> f64 {
-        self.sums.iter().chain(&self.differences).map(Complex64::norm_sqr).sum()
-    }
-
-    /// Whether the roots of both are on the same sheet.
-    fn agrees_with(&self, other: &Self) -> bool {
-        let product = |(a, b): (&Complex64, &Complex64)| a.re * b.re + a.im * b.im;
-        let (sums, differences) =
-            (self.sums.iter().zip(&other.sums), self.differences.iter().zip(&other.differences));
-        sums.chain(differences).map(product).sum::<f64>() >= 0.0
-    }
-
-    /// On the other sheet of the roots.
-    fn negated(self) -> Self {
-        let negated = |g: [Complex64; 4]| g.map(|g| -g);
-        Self { sums: negated(self.sums), differences: negated(self.differences), ..self }
-    }
-}
 
 /// A fold on a plane.
 #[derive(Clone, Debug)]
@@ -299,67 +246,6 @@ impl Fold {
     }
 }
 
-/// Launch points as a function of `q`, extrapolated from those already found.
-struct RootPath {
-    centre: [f64; 2],
-    pub tangent: [f64; 2],
-    known: Vec<(f64, [f64; 2])>,
-    imaginary: Vec<(f64, [Complex64; 2])>,
-}
-
-/// Points used for extrapolation.
-const STENCIL: usize = 4;
-
-impl RootPath {
-    fn new(centre: [f64; 2], tangent: [f64; 2]) -> Self {
-        Self { centre, tangent, known: vec![(0.0, centre)], imaginary: Vec::new() }
-    }
-
-    fn add(&mut self, q: f64, place: [f64; 2]) {
-        self.known.push((q, place));
-    }
-
-    fn add_imaginary(&mut self, q: f64, place: [Complex64; 2]) {
-        self.imaginary.push((q, place));
-    }
-
-    /// Guess at real `q`: the expansion at the fold, then the polynomial through the points nearest.
-    fn guess(&self, q: f64) -> [f64; 2] {
-        let mut near: Vec<_> = self.known.clone();
-        near.sort_by(|a, b| (a.0 - q).abs().total_cmp(&(b.0 - q).abs()));
-        near.truncate(STENCIL);
-        if near.len() < 3 {
-            return [0, 1].map(|k| self.centre[k] + q * self.tangent[k]);
-        }
-        [0, 1].map(|k| {
-            let points: Vec<(f64, f64)> = near.iter().map(|(x, p)| (*x, p[k])).collect();
-            crate::math::interpolate::lagrange(&points, q)
-        })
-    }
-
-    /// Guess at imaginary `q`: even and odd parts of the path, continued from those found.
-    fn guess_complex(&self, q: Complex64) -> [Complex64; 2] {
-        if self.imaginary.len() >= 3 {
-            let last = &self.imaginary[self.imaginary.len() - 3..];
-            return [0, 1].map(|k| {
-                let part = |f: fn(Complex64) -> f64| {
-                    let points: Vec<(f64, f64)> = last.iter().map(|(x, p)| (*x, f(p[k]))).collect();
-                    crate::math::interpolate::lagrange(&points, q.im)
-                };
-                Complex64::new(part(|z| z.re), part(|z| z.im))
-            });
-        }
-        // A polynomial in q through the real points nearest to the fold, taken at imaginary q.
-        let mut near = self.known.clone();
-        near.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-        near.truncate(5);
-        [0, 1].map(|k| {
-            let points: Vec<(f64, f64)> = near.iter().map(|(x, p)| (*x, p[k])).collect();
-            crate::math::interpolate::lagrange_complex(&points, q)
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -453,30 +339,5 @@ mod tests {
                 );
             }
         });
-    }
-
-    /// Guesses extrapolate a launch point that is a cubic in `q`, to imaginary `q` as well.
-    #[test]
-    fn guesses_follow_the_points_found() {
-        let place = |q: Complex64| [0.5 + q * (0.3 + q * (0.1 - q * 0.2)), q * (1.0 - q * q)];
-        let real = |q: f64| place(q.into()).map(|z| z.re);
-        let mut path = RootPath::new(real(0.0), [0.3, 1.0]);
-        let [u, v] = path.guess(0.01);
-        assert!((u - 0.503).abs() < 1e-15 && (v - 0.01).abs() < 1e-15);
-        for q in [0.1, -0.1, 0.2, -0.2] {
-            path.add(q, real(q));
-        }
-        let [u, v] = path.guess(0.26);
-        assert!((u - real(0.26)[0]).abs() < 1e-13 && (v - real(0.26)[1]).abs() < 1e-13);
-        let q = Complex64::new(0.0, 0.12);
-        let guess = path.guess_complex(q);
-        assert!((guess[0] - place(q)[0]).norm() + (guess[1] - place(q)[1]).norm() < 1e-13);
-        for k in 1..4 {
-            let q = Complex64::new(0.0, 0.1 * f64::from(k));
-            path.add_imaginary(q.im, place(q));
-        }
-        let q = Complex64::new(0.0, 0.32);
-        let guess = path.guess_complex(q);
-        assert!((guess[0] - place(q)[0]).norm() < 1e-3 && (guess[1] - place(q)[1]).norm() < 5e-3);
     }
 }

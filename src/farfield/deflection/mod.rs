@@ -3,6 +3,9 @@
 
 pub mod curve;
 pub mod fold;
+mod follow;
 pub mod landmark;
+pub mod pair_values;
+mod root_path;
 pub mod scan;
 pub mod scattering_plane;

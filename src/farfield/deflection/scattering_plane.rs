@@ -7,13 +7,12 @@
 //! problem of sheets and caustics becomes one of branches of a function of one variable, for any
 //! smooth drop.
 
-use crate::farfield::direction::Direction;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
 use crate::shape::Silhouette;
 use crate::trace::{Exit, Tracer, transfer};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// The rays of one order in one plane.
 pub struct ScatteringPlane<'a> {
@@ -24,10 +23,10 @@ pub struct ScatteringPlane<'a> {
     /// Azimuth of the plane.
     pub azimuth: f64,
     /// Launch point of the axial ray.
-    centre: [f64; 2],
+    pub(super) centre: [f64; 2],
     along: Vec3<f64>,
     across: Vec3<f64>,
-    rotational: bool,
+    pub(super) rotational: bool,
 }
 
 /// One ray of a plane.
@@ -106,7 +105,12 @@ impl<'a> ScatteringPlane<'a> {
     }
 
     /// Launch point at `(α, ψ)`, and its derivatives with respect to ψ.
-    fn place(&self, silhouette: &Silhouette, alpha: f64, psi: f64) -> ([f64; 2], [f64; 2]) {
+    pub(super) fn place(
+        &self,
+        silhouette: &Silhouette,
+        alpha: f64,
+        psi: f64,
+    ) -> ([f64; 2], [f64; 2]) {
         let (rim, slope) = silhouette.radius_and_slope(psi);
         let ((sin, cos), reach) = (psi.sin_cos(), alpha.sin());
         let [cu, cv] = self.centre;
@@ -148,105 +152,15 @@ impl<'a> ScatteringPlane<'a> {
         Node { alpha, psi, place, angle, exit }
     }
 
-    /// Follow the plane from the axial ray to the rim in even steps of α; gaps are `None`.
-    ///
-    /// Where the plane crosses the axis again, rays of many azimuths leave in almost one direction
-    /// and its branches are entangled, within `axis_gap` of the axis. So every stretch between
-    /// crossings is followed from its own middle, where rays are nearly those of a sphere, to both
-    /// sides, until the first node inside the gap.
-    pub fn scan(&self, silhouette: &Silhouette, count: usize, axis_gap: f64) -> Vec<Option<Node>> {
-        let mut nodes = vec![None; count];
-        let stretches = self.stretches(count);
-        for (j, &[from, seed, to]) in stretches.iter().enumerate() {
-            let way = Way { plane: self, silhouette, count, axis_gap };
-            let start = if j == 0 { self.first_azimuth() } else { self.azimuth };
-            let Some(first) = way.seed(seed, start, j > 0) else { continue };
-            way.follow(&mut nodes, first, seed..to);
-            if seed > from {
-                way.follow(&mut nodes, first, (from..=seed).rev());
-            }
-        }
-        nodes
-    }
-
-    /// Stretches between crossings of the axis on a sphere: first node, the one to start from, end.
-    fn stretches(&self, count: usize) -> Vec<[usize; 3]> {
-        let angle = |i: usize| self.angle_on_sphere(self.alpha(i, count)) - self.axis_angle();
-        let crossings: Vec<usize> = (2..count)
-            .take_while(|&i| angle(i).abs() >= angle(i - 1).abs())
-            .filter(|&i| (angle(i) / PI).floor() != (angle(i - 1) / PI).floor())
-            .collect();
-        let bow = (1..count).find(|&i| angle(i).abs() < angle(i - 1).abs()).unwrap_or(count);
-        let mut stretches = vec![[0, 0, crossings.first().copied().unwrap_or(count)]];
-        for (j, &from) in crossings.iter().enumerate() {
-            let to = crossings.get(j + 1).copied();
-            // the angle's middle between the two ends
-            let end = to.unwrap_or(bow);
-            let middle = 0.5 * (angle(from) + angle(end - 1));
-            let off = |i: &usize| (angle(*i) - middle).abs();
-            let seed = (from..end).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(from);
-            stretches.push([from, seed, to.unwrap_or(count)]);
-        }
-        stretches
-    }
-
-    /// Launch coordinate of a node of the scan.
-    fn alpha(&self, i: usize, count: usize) -> f64 {
-        (i as f64 + 0.5) * (FRAC_PI_2 - GRAZING) / count as f64
-    }
-
     /// Unwrapped exit angle of a sphere's ray.
-    fn angle_on_sphere(&self, alpha: f64) -> f64 {
+    pub(super) fn angle_on_sphere(&self, alpha: f64) -> f64 {
         let inside = (alpha.sin() / self.tracer.index().re).min(1.0).asin();
         self.axis_angle() - 2.0 * alpha + 2.0 * f64::from(self.order) * inside
-    }
-
-    /// Search a ray of the plane at `α` over launch azimuths, for use beyond a crossing of the axis,
-    /// where the plane may go on at quite another azimuth.
-    fn search(&self, silhouette: &Silhouette, alpha: f64, near: f64, slack: f64) -> Option<Node> {
-        const PROBES: usize = 24;
-        const REACH: f64 = 1.3;
-        let crossing = ((near - self.axis_angle()) / PI).round();
-        if crossing == 0.0 || self.rotational {
-            return None;
-        }
-        let probe = |k: usize| {
-            let psi = self.azimuth + REACH * (2.0 * k as f64 / PROBES as f64 - 1.0);
-            let exit = self.exit(self.place(silhouette, alpha, psi).0)?;
-            Some((psi, exit.direction.dot(self.across)))
-        };
-        let probes: Vec<Option<(f64, f64)>> = (0..=PROBES).map(probe).collect();
-        let mut best: Option<Node> = None;
-        for pair in probes.windows(2) {
-            let (Some(a), Some(b)) = (pair[0], pair[1]) else { continue };
-            if a.1 * b.1 > 0.0 {
-                continue;
-            }
-            let guess = a.0 + (b.0 - a.0) * a.1 / (a.1 - b.1);
-            let Some(node) = self.node(silhouette, alpha, guess, near) else { continue };
-            let off = |n: &Node| (n.angle - near).abs();
-            if off(&node) < slack.max(0.2) && best.is_none_or(|b| off(&node) < off(&b)) {
-                best = Some(node);
-            }
-        }
-        best
     }
 
     /// Unwrapped angle of the axial ray: backward for even orders, forward for odd ones.
     pub fn axis_angle(&self) -> f64 {
         if self.order % 2 == 1 { 0.0 } else { PI }
-    }
-
-    /// Launch azimuth at the axial ray: where the linear map of directions points along the plane.
-    fn first_azimuth(&self) -> f64 {
-        let Some(exit) = self.exit(self.centre).filter(|_| !self.rotational) else {
-            return self.azimuth;
-        };
-        // s·across = 0 to first order in the launch point
-        let (a, b) = (exit.ds[0].dot(self.across), exit.ds[1].dot(self.across));
-        let psi = (-a).atan2(b);
-        let turn = (self.azimuth - psi) / PI;
-        psi + PI * turn.round()
     }
 
     /// Search the launch point whose ray leaves at an unwrapped angle in the plane.
@@ -277,51 +191,6 @@ impl<'a> ScatteringPlane<'a> {
     }
 }
 
-/// Following a plane from node to node of a scan.
-struct Way<'m, 'a, 's> {
-    plane: &'m ScatteringPlane<'a>,
-    silhouette: &'s Silhouette<'s>,
-    count: usize,
-    axis_gap: f64,
-}
-
-impl Way<'_, '_, '_> {
-    /// The node to start from, with the launch azimuth expected there.
-    fn seed(&self, i: usize, azimuth: f64, search: bool) -> Option<Node> {
-        let (m, s) = (self.plane, self.silhouette);
-        let alpha = m.alpha(i, self.count);
-        let near = m.angle_on_sphere(alpha);
-        let close = |node: &Node| !search || (node.angle - near).abs() < 0.5;
-        m.node(s, alpha, azimuth, near)
-            .filter(close)
-            .or_else(|| m.search(s, alpha, near, 2.0 * self.axis_gap))
-    }
-
-    /// Go from `first` over the nodes of a range; stop inside the gap about the axis.
-    fn follow(&self, nodes: &mut [Option<Node>], first: Node, range: impl Iterator<Item = usize>) {
-        let (m, s) = (self.plane, self.silhouette);
-        let (mut before, mut psi_rate) = (first, 0.0);
-        for i in range {
-            let alpha = m.alpha(i, self.count);
-            let ahead = alpha - before.alpha;
-            let near = before.angle + m.angle_on_sphere(alpha) - m.angle_on_sphere(before.alpha);
-            let Some(node) = m.node(s, alpha, before.psi + psi_rate * ahead, near) else {
-                continue;
-            };
-            if ahead != 0.0 {
-                psi_rate = (node.psi - before.psi) / ahead;
-            }
-            nodes[i] = Some(node);
-            before = node;
-            let turns = (node.angle - m.axis_angle()) / PI;
-            let crossing = turns.round();
-            if crossing != 0.0 && (turns - crossing).abs() * PI < self.axis_gap {
-                return;
-            }
-        }
-    }
-}
-
 /// Launch point of the ray of an order that leaves along the axis, near the centre.
 pub fn axial_ray(tracer: &Tracer, order: u32) -> [f64; 2] {
     if tracer.shape().rotational_symmetry() {
@@ -330,16 +199,6 @@ pub fn axial_ray(tracer: &Tracer, order: u32) -> [f64; 2] {
     let probe = ScatteringPlane::new(tracer, order, 0.0, [0.0, 0.0]);
     let angle = if order % 2 == 1 { 0.0 } else { PI };
     probe.aim(angle, [0.0, 0.0]).map_or([0.0, 0.0], |(place, _)| place)
-}
-
-/// The direction of an unwrapped angle in the plane of an azimuth.
-pub fn direction(angle: f64, azimuth: f64) -> Direction {
-    let wrapped = angle.rem_euclid(TAU);
-    if wrapped <= PI {
-        Direction::new(wrapped, azimuth)
-    } else {
-        Direction::new(TAU - wrapped, azimuth + PI)
-    }
 }
 
 #[cfg(test)]
@@ -473,37 +332,5 @@ mod tests {
             assert!(v.abs() < 1e-12);
         }
         assert!(axial_ray(&tracer, 1)[0].abs() > 1e-3);
-    }
-
-    #[test]
-    fn unwrapped_angles_are_directions_of_either_side() {
-        for (angle, theta, azimuth) in [
-            (0.3, 0.3, 1.0),
-            (-0.3, 0.3, 1.0 + PI),
-            (TAU + 0.5, 0.5, 1.0),
-            (PI + 0.2, PI - 0.2, 1.0 + PI),
-        ] {
-            let found = direction(angle, 1.0);
-            assert!((found.theta - theta).abs() + (found.phi - azimuth).abs() < 1e-14, "{angle}");
-            let shape = Shape::sphere();
-            let tracer = Tracer::new(&shape, INDEX.into(), 1.0, 1);
-            let unit = ScatteringPlane::new(&tracer, 1, 1.0, [0.0; 2]).frame(angle).0;
-            assert!(length(unit - found.unit) < 1e-15);
-        }
-    }
-
-    /// The stretches of a scan follow on one another and leave nothing out.
-    #[test]
-    fn stretches_cover_the_scan() {
-        let shape = Shape::sphere();
-        let tracer = Tracer::new(&shape, INDEX.into(), 100.0, 9);
-        for (order, crossings) in [(1, 0), (2, 0), (3, 0), (4, 1), (6, 2), (9, 3)] {
-            let plane = ScatteringPlane::new(&tracer, order, 0.0, [0.0; 2]);
-            let stretches = plane.stretches(160);
-            assert_eq!(stretches.len(), 1 + crossings, "{order}: {stretches:?}");
-            assert!(stretches[0][0] == 0 && stretches.last().unwrap()[2] == 160);
-            assert!(stretches.windows(2).all(|w| w[0][2] == w[1][0]), "{stretches:?}");
-            assert!(stretches.iter().all(|[from, seed, to]| from <= seed && seed < to));
-        }
     }
 }

@@ -169,9 +169,16 @@ impl Penumbra {
             let share = |cos: f64| {
                 let square = 1.0 - cos * cos;
                 let chord = 2.0 * edge.radius * (1.0 - (cos / index.re).powi(2)).max(0.0).sqrt();
-                let kept = (-2.0 * x * index.im * chord).exp();
-                let absorbed =
-                    |reflected: f64| (1.0 - reflected) * (1.0 - kept) / (1.0 - reflected * kept);
+                let lost = -(-2.0 * x * index.im * chord).exp_m1();
+                let absorbed = |reflected: f64| {
+                    let entering = (1.0 - reflected).max(0.0);
+                    // all rounds: 1 - reflected (1 - lost) below; nothing enters under total reflection
+                    if lost == 0.0 {
+                        0.0
+                    } else {
+                        entering * lost / (lost + entering * (1.0 - lost))
+                    }
+                };
                 let wave = Grazing::reflection(square, size, index).map(|r| absorbed(r.norm_sqr()));
                 let rays = if cos < 1.0 {
                     let flat = fresnel(square.sqrt(), index);
@@ -258,7 +265,8 @@ fn widening(theta: f64) -> f64 {
 mod tests {
     use super::super::penumbra_layout::near_axis;
     use super::*;
-    use crate::farfield::branch::accumulate::{Samples, Side, Sums, add_segment};
+    use crate::farfield::branch::accumulate::add_segment;
+    use crate::farfield::branch::samples::{Samples, Side, Sums};
     use crate::series::debye::{DebyeSeries, Term};
     use crate::shape::Shape;
 

@@ -8,7 +8,8 @@
 //! Nussenzveig 1969). The integral over impacts is the same as that of a rim wave.
 
 use super::integrand::Integrand;
-use super::rays::{Prefactor, RAYS, Rays};
+use super::prefactor::Prefactor;
+use super::rays::{RAYS, Rays};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::scattering_plane::Node;

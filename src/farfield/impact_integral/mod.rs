@@ -3,7 +3,10 @@
 
 pub mod glory;
 pub mod integrand;
+pub mod met_fields;
 pub mod near_critical;
 pub mod near_grazing;
 pub mod near_grazing_layout;
+pub mod near_grazing_taper;
+mod prefactor;
 pub mod rays;

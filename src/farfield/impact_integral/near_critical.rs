@@ -9,7 +9,8 @@
 //! beyond as waves tunnel, since an end before the rim would be an edge that shines.
 
 use super::near_grazing::wave_knot;
-use super::rays::{Prefactor, Rays, TUNNEL};
+use super::prefactor::Prefactor;
+use super::rays::{Rays, TUNNEL};
 use crate::farfield::branch::knots::{Kind, Knot, Segment};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;

@@ -19,7 +19,8 @@
 use super::glory::Glory;
 use super::integrand::{Integrand, Sums};
 use super::near_grazing_layout::NearGrazingLayout;
-use super::rays::{Prefactor, Rays};
+use super::prefactor::Prefactor;
+use super::rays::Rays;
 use crate::farfield::branch::knots::{Kind, Knot, Segment, SingleKnot};
 use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;

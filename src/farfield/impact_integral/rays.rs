@@ -5,14 +5,14 @@
 //! zones, and the coefficients of the curved interface ([`Grazing::whole`]) follow from them there.
 
 use super::integrand::Integrand;
+use super::met_fields::{MeetingChannels, transfer, turned_frames};
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::scattering_plane::Node;
 use crate::math::chebyshev::{self, Chebyshev};
-use crate::math::vec3::Vec3;
-use crate::optics::{Grazing, curved_from_inside};
+use crate::optics::Grazing;
 use crate::trace::Meeting;
 use num_complex::Complex64;
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f64::consts::TAU;
 
 /// Real rays through which the polynomials pass.
 pub(crate) const RAYS: usize = 20;
@@ -42,63 +42,12 @@ struct Channels<T> {
     last_turn: T,
 }
 
-/// How a ray meets the surface.
-pub(crate) struct MeetingChannels<T> {
-    /// Squared cosine outside.
-    pub square: T,
-    /// Radius of curvature.
-    pub radius: T,
-    /// Turn of the frame before it.
-    pub turn: T,
-}
-
 /// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
 /// which their phase stands still.
 pub(crate) struct Anchor {
     pub angle: f64,
     pub impact: f64,
     pub path: f64,
-}
-
-/// What stands before the integral, `-i √(x/2π) e^{-iπm/2 ∓ iπ/4}` for `m` focal lines, where one ray
-/// leaves. Waves that pass the axis pass a focal line more or less there.
-pub(crate) struct Prefactor {
-    value: Complex64,
-    /// Unwrapped angle of the ray.
-    pub angle: f64,
-    /// Sign of its impact.
-    pub sense: f64,
-}
-
-impl Prefactor {
-    /// For the rays from one launch point to another nearby, without a fold between.
-    pub(crate) fn between(
-        curve: &DeflectionCurve,
-        [from, to]: [f64; 2],
-        size_parameter: f64,
-    ) -> Option<Self> {
-        let (first, ahead) = (curve.ray_at(from)?, curve.ray_at(to)?);
-        let impact = |node: &Node| node.exit.reference.dot(curve.plane().frame(node.angle).1);
-        let turn = ((ahead.angle - first.angle) * (impact(&ahead) - impact(&first))).signum();
-        let focal_lines = f64::from(first.exit.focal_lines);
-        let phase = -FRAC_PI_2 * (1.0 + focal_lines) - FRAC_PI_4 * turn;
-        let value = Complex64::from_polar((size_parameter / TAU).sqrt(), phase);
-        Some(Self { value, angle: first.angle, sense: impact(&first).signum() })
-    }
-
-    /// The factor of waves that leave in another direction.
-    pub(crate) fn towards(&self, angle: f64) -> Complex64 {
-        self.after((angle / PI).floor() - (self.angle / PI).floor())
-    }
-
-    /// The factor at the axis `number · π`, half-way through its focal line.
-    pub(crate) fn at_axis(&self, number: f64) -> Complex64 {
-        self.after(number - 0.5 - (self.angle / PI).floor())
-    }
-
-    fn after(&self, crossings: f64) -> Complex64 {
-        self.value * Complex64::cis(FRAC_PI_2 * crossings * self.sense)
-    }
 }
 
 impl Rays {
@@ -233,46 +182,6 @@ fn at(series: &Chebyshev<1>, sin: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// Fields `[perpendicular, perpendicular × direction]` of a ray that has left, for incident light of either
-/// kind, from how it met the surface each time and the last turn of the frame; with the phases of the waves
-/// outside.
-pub(crate) fn transfer(
-    meetings: impl ExactSizeIterator<Item = MeetingChannels<f64>>,
-    last_turn: f64,
-    index: Complex64,
-    x: f64,
-) -> [[Complex64; 2]; 2] {
-    let count = meetings.len();
-    let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
-    for (hit, MeetingChannels { square, radius, turn: before }) in meetings.enumerate() {
-        turn(&mut fields, before);
-        let grazing = Grazing::whole(square, x * radius);
-        let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
-        let f = curved_from_inside(inside, index, &grazing);
-        let through = hit == 0 || hit + 1 == count;
-        let (perpendicular, parallel) = if through {
-            (f.t_perpendicular, f.t_parallel)
-        } else {
-            (f.r_perpendicular, f.r_parallel)
-        };
-        for field in &mut fields {
-            field[0] *= perpendicular;
-            field[1] *= parallel;
-        }
-    }
-    turn(&mut fields, last_turn);
-    fields
-}
-
-/// Turn the frame of fields about the ray.
-fn turn(fields: &mut [[Complex64; 2]; 2], angle: f64) {
-    let (sin, cos) = angle.sin_cos();
-    for field in fields {
-        let [a, b] = *field;
-        *field = [a * cos + b * sin, b * cos - a * sin];
-    }
-}
-
 /// What is known of one ray.
 fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Channels<f64>> {
     let plane = curve.plane();
@@ -301,24 +210,6 @@ fn path_inside(meetings: &[Meeting]) -> Option<f64> {
     Some(meetings.last()?.path - meetings.first()?.path)
 }
 
-/// What [`transfer`] needs, for the first axes of the frames before and behind; frames are
-/// (perpendicular, perpendicular × direction).
-fn turned_frames(
-    meetings: &[Meeting],
-    before: Vec3<f64>,
-    behind: Vec3<f64>,
-    direction: Vec3<f64>,
-) -> (Vec<MeetingChannels<f64>>, f64) {
-    let mut frame = before;
-    let met = |meeting: &Meeting| {
-        let turn = frame_turn(frame, meeting.perpendicular, meeting.direction);
-        frame = meeting.perpendicular;
-        MeetingChannels { square: meeting.cos_squared_outside, radius: meeting.radius, turn }
-    };
-    let met = meetings.iter().map(met).collect();
-    (met, frame_turn(frame, behind, direction))
-}
-
 /// Unwrap the turns of frames, smooth along rows.
 fn unwrap_turns(rows: &mut [Channels<f64>]) {
     let near = |turn: &mut f64, before: f64| *turn += TAU * ((before - *turn) / TAU).round();
@@ -332,11 +223,6 @@ fn unwrap_turns(rows: &mut [Channels<f64>]) {
     }
 }
 
-/// Angle by which a frame about a ray must turn for its first axis to become another.
-fn frame_turn(from: Vec3<f64>, to: Vec3<f64>, direction: Vec3<f64>) -> f64 {
-    from.cross(direction).dot(to).atan2(from.dot(to))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -344,6 +230,7 @@ mod tests {
     use crate::farfield::deflection::scattering_plane::ScatteringPlane;
     use crate::shape::Shape;
     use crate::trace::Tracer;
+    use std::f64::consts::{FRAC_PI_2, PI};
 
     const INDEX: f64 = 1.333;
 
@@ -407,29 +294,8 @@ mod tests {
         });
     }
 
-    /// A quarter of a turn for each crossing of the axis, half of it upon the axis.
     #[test]
-    fn prefactors_gain_a_focal_line_at_the_axis() {
-        let prefactor = Prefactor { value: Complex64::new(0.3, 0.4), angle: 0.4, sense: 1.0 };
-        assert_eq!(prefactor.towards(3.0), prefactor.value);
-        let crossed = prefactor.towards(3.3);
-        assert!((crossed - prefactor.value * Complex64::i()).norm() < 1e-15);
-        assert!((prefactor.towards(-0.1) + prefactor.value * Complex64::i()).norm() < 1e-15);
-        let upon = prefactor.at_axis(1.0);
-        assert!((upon * Complex64::cis(FRAC_PI_4) - crossed).norm() < 1e-15);
-    }
-
-    #[test]
-    fn frames_turn_about_the_ray_and_rows_are_unwrapped() {
-        let z = Vec3::new(0.0, 0.0, 1.0);
-        let at = |angle: f64| Vec3::new(angle.cos(), angle.sin(), 0.0);
-        // `perpendicular, perpendicular × direction`: clockwise about the ray
-        assert!((frame_turn(at(0.4), at(0.1), z) - 0.3).abs() < 1e-15);
-        let mut fields = [[Complex64::from(1.0), 0.0.into()], [0.0.into(), Complex64::from(1.0)]];
-        turn(&mut fields, 0.3);
-        let second = at(0.1).cross(z);
-        assert!((fields[0][0] - at(0.4).dot(at(0.1))).norm() < 1e-15);
-        assert!((fields[0][1] - at(0.4).dot(second)).norm() < 1e-15);
+    fn turns_are_unwrapped_along_rows() {
         let row = |a: f64, last_turn: f64| Channels {
             impact: 0.0,
             path: 0.0,

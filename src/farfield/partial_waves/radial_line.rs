@@ -7,9 +7,11 @@
 //! the entry and of the exit, are taken out as on a sphere: paths are measured between the turning points
 //! of the waves outside ([`Grazing::path_outside`]), directions turned back by the grazing angles.
 
-use super::radial_rays::{RadialRay, Way, path_on_sphere, path_series};
+use super::radial_channels::{Channels, RAYS};
+use super::radial_rays::{Way, path_on_sphere, path_series};
 use crate::farfield::branch::window::Window;
-use crate::farfield::impact_integral::rays::{MeetingChannels, TUNNEL, transfer};
+use crate::farfield::impact_integral::met_fields::{MeetingChannels, transfer};
+use crate::farfield::impact_integral::rays::TUNNEL;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::vec3::Vec3;
 use crate::optics::Grazing;
@@ -18,9 +20,6 @@ use crate::trace::Tracer;
 use num_complex::Complex64;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Real rays on a line, and the degree of the polynomials through them.
-const RAYS: usize = 24;
-const DEGREE: usize = 16;
 /// Where the line begins, and the share of it left out before the last ray.
 const BEGIN: f64 = 0.02;
 const SPARE: f64 = 0.02;
@@ -32,48 +31,6 @@ const LARGEST_TURN: f64 = 1.0;
 const LEAST_SLOPE: f64 = 0.1;
 /// Largest angle inside.
 const STEEPEST: f64 = 0.98 * FRAC_PI_2;
-
-/// Polynomials through what is known of the rays: see [`RadialRay`].
-struct Channels {
-    impact: Chebyshev<1>,
-    path: Chebyshev<1>,
-    inside: Chebyshev<1>,
-    direction: Chebyshev<3>,
-    aside: Chebyshev<3>,
-    density: Chebyshev<2>,
-    meetings: Vec<Chebyshev<3>>,
-    normal: Chebyshev<2>,
-}
-
-impl Channels {
-    fn through(rays: &[RadialRay], from: f64, to: f64) -> Self {
-        fn fit<const C: usize>(values: &[[f64; C]], from: f64, to: f64) -> Chebyshev<C> {
-            let mut series = Chebyshev::fit(values, from, to);
-            series.truncate(DEGREE);
-            series
-        }
-        let one = |value: &dyn Fn(&RadialRay) -> f64| {
-            fit(&rays.iter().map(|ray| [value(ray)]).collect::<Vec<_>>(), from, to)
-        };
-        let two = |value: &dyn Fn(&RadialRay) -> [f64; 2]| {
-            fit(&rays.iter().map(value).collect::<Vec<_>>(), from, to)
-        };
-        let three = |value: &dyn Fn(&RadialRay) -> [f64; 3]| {
-            fit(&rays.iter().map(value).collect::<Vec<_>>(), from, to)
-        };
-        let hits = rays.first().map_or(0, |ray| ray.meetings.len());
-        Self {
-            impact: one(&|ray| ray.impact),
-            path: one(&|ray| ray.path),
-            inside: one(&|ray| ray.inside),
-            direction: three(&|ray| ray.direction),
-            aside: three(&|ray| ray.aside),
-            density: two(&|ray| ray.density),
-            meetings: (0..hits).map(|hit| three(&|ray| ray.meetings[hit])).collect(),
-            normal: two(&|ray| ray.normal),
-        }
-    }
-}
 
 /// The line of launch points at one azimuth; its coordinate is a sphere's angle inside, `τ`, with the
 /// launch point at `s = n sin τ` of the way from the centre to the rim.
@@ -103,55 +60,6 @@ pub(crate) struct Ring {
     pub null: Vec3<Complex64>,
     /// Amplitudes along the normal of the plane and along the impact, for incident light along x and y.
     pub fields: [[Complex64; 2]; 2],
-}
-
-/// Launch point of the ray of an order whose line goes through the centre when it has left, near the
-/// middle of the shadow.
-pub(crate) fn central_ray(
-    tracer: &Tracer,
-    silhouette: &Silhouette,
-    order: u32,
-    whole: bool,
-) -> Option<[f64; 2]> {
-    const STEPS: usize = 40;
-    const RADII: usize = 16;
-    const AZIMUTHS: usize = 24;
-    const LONGEST: f64 = 0.05;
-    if !whole {
-        return Some([0.0; 2]);
-    }
-    let impact = |place: [f64; 2]| {
-        let exit = tracer.trace_order(place[0], place[1], order)?;
-        Some(exit.reference.dot(exit.reference).sqrt())
-    };
-    let mut nearest = ([0.0; 2], impact([0.0; 2]).unwrap_or(f64::MAX));
-    for j in 0..AZIMUTHS {
-        let (sin, cos) = (TAU * j as f64 / AZIMUTHS as f64).sin_cos();
-        let rim = silhouette.radius(sin.atan2(cos));
-        for i in 1..RADII {
-            let radius = 0.7 * rim * i as f64 / RADII as f64;
-            let place = [radius * cos, radius * sin];
-            if let Some(found) = impact(place).filter(|found| *found < nearest.1) {
-                nearest = (place, found);
-            }
-        }
-    }
-    let mut place = nearest.0;
-    for _ in 0..STEPS {
-        let exit = tracer.trace_order(place[0], place[1], order)?;
-        let [a, b] = exit.dx;
-        let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
-        let (ar, br) = (a.dot(exit.reference), b.dot(exit.reference));
-        let determinant = aa * bb - ab * ab;
-        let step = [(bb * ar - ab * br) / determinant, (aa * br - ab * ar) / determinant];
-        let size = step[0].hypot(step[1]);
-        let share = (LONGEST / size).min(1.0);
-        place = [place[0] - share * step[0], place[1] - share * step[1]];
-        if size < 1e-13 {
-            return Some(place);
-        }
-    }
-    None
 }
 
 impl RadialLine {
@@ -387,6 +295,7 @@ struct Incidence {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::farfield::partial_waves::central_ray::central_ray;
     use crate::shape::Shape;
 
     const INDEX: f64 = 1.333;

@@ -1,12 +1,4 @@
 //! Chebyshev interpolation of smooth functions on an interval, several channels at once.
-//!
-//! ```
-//! use gonio::math::chebyshev::{Chebyshev, points};
-//!
-//! let values: Vec<[f64; 1]> = points(20, 0.0, 2.0).iter().map(|x| [x.sin()]).collect();
-//! let (value, slope) = Chebyshev::fit(&values, 0.0, 2.0).at(1.3);
-//! assert!((value[0] - 1.3f64.sin()).abs() < 1e-14 && (slope[0] - 1.3f64.cos()).abs() < 1e-12);
-//! ```
 
 use std::f64::consts::PI;
 

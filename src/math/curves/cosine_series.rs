@@ -5,14 +5,6 @@
 //! are themselves a cosine sum over the values (the discrete cosine transform of type I), so that
 //! one sum serves both ways. It runs over the angles in SIMD lanes; cos kθ is turned on by a
 //! rotation and set anew now and then, so that rounding does not add up.
-//!
-//! ```
-//! use gonio::math::cosine_series::{CosineSeries, points};
-//!
-//! let values: Vec<[f64; 1]> = points(8).iter().map(|t| [(3.0 * t).cos()]).collect();
-//! let found = CosineSeries::fit(&values).at(&[0.4]);
-//! assert!((found[0][0] - 1.2f64.cos()).abs() < 1e-14);
-//! ```
 
 use multiversion::multiversion;
 use rayon::prelude::*;

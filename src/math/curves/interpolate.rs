@@ -1,11 +1,4 @@
 //! Interpolation by polynomials through a few points.
-//!
-//! ```
-//! use gonio::math::interpolate::lagrange;
-//!
-//! // a parabola through three of its points
-//! assert!((lagrange(&[(0.0, 1.0), (1.0, 2.0), (3.0, 10.0)], 2.0) - 5.0).abs() < 1e-14);
-//! ```
 
 use num_complex::Complex64;
 

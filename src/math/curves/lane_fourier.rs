@@ -3,6 +3,9 @@
 //!
 //! Stockham's form: every pass reads one buffer in order and writes the other so that nothing has to
 //! be permuted at the end. Passes split by four, then by two and by three what is left.
+//!
+//! RustFFT transforms as fast, but one sequence after the other: the sums that want them side by side
+//! then take a third longer (`validation/engine.md`).
 
 use crate::math::fused::multiply_add;
 use multiversion::multiversion;

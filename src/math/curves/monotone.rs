@@ -3,14 +3,6 @@
 //! A table of positive values stays positive in between, which no ordinary spline can promise.
 //! Slopes after Fritsch & Butland, SIAM J. Sci. Stat. Comput. 5, 300 (1984), with the end formula
 //! of Moler (*Numerical Computing with MATLAB*, 2004, sec. 3.4).
-//!
-//! ```
-//! use gonio::math::monotone::MonotoneCurve;
-//!
-//! let step = MonotoneCurve::new(vec![0.0, 1.0, 2.0, 3.0], vec![0.0, 0.0, 1.0, 1.0]).expect("a table");
-//! assert_eq!(step.value(0.5), 0.0);
-//! assert!((0.0..=1.0).contains(&step.value(1.9)));
-//! ```
 
 /// A piecewise cubic through the rows of a table, continuous with its first derivative.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,15 +3,6 @@
 //! The unknowns are slope and second derivative at every point; third and fourth derivative are
 //! continuous there and zero at the ends. That is a block-tridiagonal system of 2 × 2 blocks. The
 //! error falls as h⁶, against h⁴ of the cubic spline.
-//!
-//! ```
-//! use gonio::math::spline::quintic_derivatives;
-//!
-//! let x: Vec<f64> = (0..40).map(|i| f64::from(i) * 0.1).collect();
-//! let y: Vec<f64> = x.iter().map(|x| x.sin()).collect();
-//! let [slope, bend] = quintic_derivatives(&x, &y)[20];
-//! assert!((slope - x[20].cos()).abs() < 1e-7 && (bend + x[20].sin()).abs() < 1e-5);
-//! ```
 
 /// First and second derivatives of the quintic spline at the points, `x` ascending.
 pub fn quintic_derivatives(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {

@@ -2,14 +2,6 @@
 //!
 //! Cubic Hermite between nodes; both derivatives are at hand, since Ai″ = x Ai. The nodes come from
 //! the crate `complex-bessel` (Amos's algorithm).
-//!
-//! ```
-//! use gonio::math::airy::ai;
-//!
-//! // Abramowitz & Stegun 1964, 10.4.4 and 10.4.5
-//! let (value, slope) = ai(0.0);
-//! assert!((value - 0.355028053887817).abs() < 1e-12 && (slope + 0.258819403792807).abs() < 1e-12);
-//! ```
 
 use num_complex::Complex64;
 use std::sync::OnceLock;

@@ -5,15 +5,6 @@
 //! `c₀ ln|t₂/t₁| + Σ cⱼ (t₂ʲ − t₁ʲ)/j`. At a common end of two pieces the logarithms cancel,
 //! because `f` is continuous. Far from the pole the powers of `t` would cancel each other, so there
 //! the piece is integrated by Gauss's rule, which is then exact to rounding.
-//!
-//! ```
-//! use gonio::math::principal_value::PiecewisePolynomial;
-//!
-//! // P∫ x/(x - s) dx from 0 to 1 is 1 + s ln((1 - s)/s)
-//! let pieces = PiecewisePolynomial::linear(&[0.0, 1.0], &[0.0, 1.0]);
-//! let exact = 1.0 + 0.3 * (0.7f64 / 0.3).ln();
-//! assert!((pieces.principal_value(0.3) - exact).abs() < 1e-14);
-//! ```
 
 use crate::math::curves::spline::quintic_derivatives;
 

@@ -4,16 +4,6 @@
 //! (Bohren & Huffman 1983, sec. 4.3). Every function obeys
 //! `f_{n+1} = ((2n + 1)/z) f_n - f_{n-1}`. ψ is the minimal solution beyond `n ≈ |z|`: there only
 //! the downward direction is stable, and the ratio `u_n = ψ_n/ψ_{n-1}` is what to carry.
-//!
-//! ```
-//! use gonio::math::riccati_bessel::psi_chi;
-//!
-//! // ψ₀ = sin x, and the Wronskian ψ₁ χ₀ - ψ₀ χ₁ is 1 or -1 by the sign of χ
-//! let functions = psi_chi(2.0, 5);
-//! assert!((functions.psi[0] - 2f64.sin()).abs() < 1e-14);
-//! let (psi, chi) = (&functions.psi, &functions.chi);
-//! assert!(((psi[1] * chi[0] - psi[0] * chi[1]).abs() - 1.0).abs() < 1e-13);
-//! ```
 
 use num_complex::Complex64;
 use std::ops::{Mul, Sub};

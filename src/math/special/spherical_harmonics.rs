@@ -1,13 +1,4 @@
 //! Associated Legendre functions, normalised by Schmidt, for sums over spherical harmonics.
-//!
-//! ```
-//! use gonio::math::spherical_harmonics::legendre;
-//!
-//! let theta = 0.7f64;
-//! legendre(0, 1, theta, |l, value, _| {
-//!     assert!((value - theta.cos().powi(l as i32)).abs() < 1e-15);
-//! });
-//! ```
 
 /// `√((l-m)!/(l+m)!) P_l^m(cos θ)` without the sign `(-1)^m`, and the same of its derivative by θ, for
 /// one `m` and `l = m ..= last`, handed to `visit` as `(l, value, slope)`. `θ` must not be 0 or π.

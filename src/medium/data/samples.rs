@@ -6,8 +6,8 @@
 //! value, and asking for one gives the row's fault.
 
 use crate::math::monotone::MonotoneCurve;
-use crate::medium::data::table::{Column, file_error};
-use crate::medium::error::{MediumError, digits};
+use crate::medium::data::column::Column;
+use crate::medium::error::{MediumError, digits, file_error};
 use std::path::{Path, PathBuf};
 
 /// Values by ascending wavelength (metres) with the rows that could not be used.

@@ -1,12 +1,12 @@
 //! A table of optical data: columns by wavelength, and what may stand in them.
 //!
-//! Errors name the file and the line. n is positive, k and absorbance are not negative; see
-//! [`Samples`] for what becomes of rows that are not so.
+//! Errors name the file and the line; see [`Samples`] for what becomes of rows that hold what their column
+//! cannot.
 
-use crate::math::monotone::MonotoneCurve;
+use crate::medium::data::column::Column;
 use crate::medium::data::samples::{Row, Samples};
 use crate::medium::data::unit::Unit;
-use crate::medium::error::{MediumError, invalid};
+use crate::medium::error::{MediumError, file_error};
 use std::path::Path;
 
 /// Optical data by wavelength; a column that the file lacks is empty.
@@ -24,53 +24,6 @@ pub struct Table {
     pub unit: Option<Unit>,
     /// What the reader changed or left out: notes for the user.
     pub notes: Vec<String>,
-}
-
-/// A column of values besides the wavelength.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::medium) enum Column {
-    N,
-    K,
-    Absorbance,
-}
-
-impl Column {
-    pub(in crate::medium) fn name(self) -> &'static str {
-        match self {
-            Self::N => "n",
-            Self::K => "k",
-            Self::Absorbance => "absorbance",
-        }
-    }
-
-    /// Whether a value below zero may be noise about zero.
-    pub(in crate::medium) fn is_absorption(self) -> bool {
-        self != Self::N
-    }
-
-    /// Refuses a value that the column cannot hold.
-    pub(in crate::medium) fn check(self, value: f64) -> Result<(), String> {
-        if !value.is_finite() {
-            return Err(format!("{value} is not a finite number"));
-        }
-        let (accepted, bound) = match self {
-            Self::N => (
-                (1e-4..=1e4).contains(&value),
-                if value <= 0.0 { "positive" } else { "1e-4 to 1e4" },
-            ),
-            Self::K => (
-                (0.0..=1e4).contains(&value),
-                if value > 0.0 { "at most 1e4" } else { "0 or more" },
-            ),
-            Self::Absorbance => (value >= 0.0, "0 or more"),
-        };
-        if accepted {
-            return Ok(());
-        }
-        // Three hundred digits would help nobody.
-        let value = if value < 1e15 { value.to_string() } else { format!("{value:e}") };
-        Err(format!("{} = {value} must be {bound}", self.name()))
-    }
 }
 
 /// Collects rows of several columns.
@@ -115,26 +68,6 @@ impl<'a> TableBuilder<'a> {
         table.notes.dedup();
         Ok(self.table)
     }
-}
-
-/// The curve through the rows of a column.
-pub(in crate::medium) fn curve(x: &[f64], y: &[f64]) -> Result<MonotoneCurve, MediumError> {
-    MonotoneCurve::new(x.to_vec(), y.to_vec()).ok_or_else(|| {
-        invalid(
-            "table",
-            format!("{} wavelengths, {} values", x.len(), y.len()),
-            "as many values as wavelengths, ascending, at least two",
-        )
-    })
-}
-
-/// An error about a file.
-pub(in crate::medium) fn file_error(
-    path: &Path,
-    line: Option<usize>,
-    message: impl Into<String>,
-) -> MediumError {
-    MediumError::File { path: path.to_path_buf(), line, message: message.into() }
 }
 
 /// What a medium of a file is called: the file's name without folder and ending.

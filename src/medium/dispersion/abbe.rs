@@ -6,7 +6,6 @@
 
 use crate::medium::dispersion::formula::Formula;
 use crate::medium::error::{MediumError, invalid};
-use crate::medium::kinds::Medium;
 use serde::{Deserialize, Serialize};
 
 /// Which lines an Abbe number is taken at.
@@ -59,16 +58,6 @@ impl Abbe {
     pub fn of(lines: AbbeLines, index: impl Fn(f64) -> f64) -> Self {
         let [n, short, long] = lines.micrometres().map(index);
         Self { index: n, number: (n - 1.0) / (short - long) }
-    }
-
-    /// Of a medium, where its data cover the three lines.
-    pub fn of_medium(lines: AbbeLines, medium: &Medium) -> Option<Self> {
-        let mut n = [0.0; 3];
-        for (n, um) in n.iter_mut().zip(lines.micrometres()) {
-            *n = medium.index(um / 1e6).ok()?.re;
-        }
-        let number = (n[0] - 1.0) / (n[1] - n[2]);
-        number.is_finite().then_some(Self { index: n[0], number })
     }
 
     /// The two-term Cauchy formula that has this index and this Abbe number: A, and B in µm².

@@ -1,5 +1,4 @@
 //! Formulas for the index by wavelength, and conversions between them.
 
 pub(super) mod abbe;
-pub(super) mod band_model;
 pub(super) mod formula;

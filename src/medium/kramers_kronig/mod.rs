@@ -19,7 +19,6 @@ pub mod transform;
 
 use crate::math::monotone::MonotoneCurve;
 use crate::math::principal_value::PiecewisePolynomial;
-use crate::medium::data::table::curve;
 use crate::medium::error::{MediumError, invalid};
 use std::f64::consts::PI;
 
@@ -223,4 +222,15 @@ fn strongest_band(omega: &[f64], values: &[f64]) -> Result<(f64, f64), MediumErr
         }
     };
     Ok((omega[peak], width))
+}
+
+/// The curve through the rows of a column.
+fn curve(x: &[f64], y: &[f64]) -> Result<MonotoneCurve, MediumError> {
+    MonotoneCurve::new(x.to_vec(), y.to_vec()).ok_or_else(|| {
+        invalid(
+            "table",
+            format!("{} wavelengths, {} values", x.len(), y.len()),
+            "as many values as wavelengths, ascending, at least two",
+        )
+    })
 }

@@ -7,14 +7,14 @@
 //! formulas are forms of those in [`Formula`]. Indices are relative to air at the temperature of the
 //! catalogue. A row with T = 0 bounds k from below only, and gives no k.
 
+use crate::medium::data::column::Column;
 use crate::medium::data::material::Material;
 use crate::medium::data::samples::{Row, Samples};
-use crate::medium::data::table::{Column, file_error};
 use crate::medium::data::unit::Unit;
 use crate::medium::dispersion::formula::Formula;
-use crate::medium::error::MediumError;
-use crate::medium::library;
+use crate::medium::error::{MediumError, file_error};
 use crate::medium::read::text;
+use crate::medium::spelling::nearest;
 use std::path::Path;
 
 /// One glass as the catalogue's lines give it.
@@ -97,7 +97,7 @@ fn choose(
     if let Some(i) = glasses.iter().position(|g| g.name.to_lowercase() == lower) {
         return Ok(glasses.swap_remove(i));
     }
-    let nearest = library::nearest(wanted, glasses.iter().map(|g| g.name.as_str()));
+    let nearest = nearest(wanted, glasses.iter().map(|g| g.name.as_str()));
     let hint = nearest.map(|n| format!(", did you mean \"{n}\"?")).unwrap_or_default();
     let message = format!("no glass \"{wanted}\" among {}{hint}", glasses.len());
     Err(file_error(path, None, message))

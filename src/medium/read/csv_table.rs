@@ -11,10 +11,11 @@
 //! permittivity `eps1`, `eps2`, which becomes `n + ik = √(ε₁ + iε₂)`. Rows may stand in any order;
 //! an empty cell is no row of its column. Dialects: see `csv_cells`.
 
+use crate::medium::data::column::Column;
 use crate::medium::data::samples::Row;
-use crate::medium::data::table::{Column, Table, TableBuilder, file_error};
+use crate::medium::data::table::{Table, TableBuilder};
 use crate::medium::data::unit::Unit;
-use crate::medium::error::MediumError;
+use crate::medium::error::{MediumError, file_error};
 use crate::medium::read::csv_cells::{Separator, comment, number};
 use crate::medium::read::text;
 use num_complex::Complex64;

@@ -1,41 +1,14 @@
-//! Files that hold the extinction coefficient k and no n: no medium, but data to be looked at.
+//! Reading files that hold the extinction coefficient k and no n.
 
-use crate::medium::data::material::Material;
-use crate::medium::data::samples::DataCurve;
+use crate::medium::data::extinction::Extinction;
 use crate::medium::data::table::name_of;
-use crate::medium::error::{MediumError, check_range};
-use crate::medium::read::{csv_table, refractive_index_info};
-use crate::medium::spec::has_ending;
+use crate::medium::error::MediumError;
+use crate::medium::read::csv_table;
+use crate::medium::read::ending::has_ending;
+use crate::medium::read::refractive_index_info::{self, Data};
 use std::path::Path;
 
-/// k by wavelength, from a file without n.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Extinction {
-    /// What it is called.
-    pub name: String,
-    /// Where the data are from.
-    pub source: String,
-    /// What the reader of the file changed or left out.
-    pub notes: Vec<String>,
-    curve: DataCurve,
-}
-
-/// What a file of optical data holds.
-pub(in crate::medium) enum Data {
-    Material(Box<Material>),
-    Extinction(Extinction),
-}
-
 impl Extinction {
-    pub(in crate::medium) fn new(
-        name: String,
-        source: String,
-        notes: Vec<String>,
-        curve: DataCurve,
-    ) -> Self {
-        Self { name, source, notes, curve }
-    }
-
     /// Reads a file that resolving refused with [`MediumError::OnlyExtinction`]; `None` for one that
     /// has n.
     pub fn read(path: &Path) -> Result<Option<Self>, MediumError> {
@@ -49,22 +22,6 @@ impl Extinction {
         match refractive_index_info::read_data(path)? {
             Data::Extinction(extinction) => Ok(Some(extinction)),
             Data::Material(_) => Ok(None),
-        }
-    }
-
-    /// Wavelengths in metres that the data cover.
-    pub fn range(&self) -> (f64, f64) {
-        self.curve.range()
-    }
-
-    /// k at a wavelength in metres.
-    pub fn value(&self, wavelength: f64) -> Result<f64, MediumError> {
-        match self.curve.value(wavelength) {
-            Some(value) => value,
-            None => {
-                check_range(&self.name, wavelength, self.range())?;
-                self.curve.held(wavelength)
-            }
         }
     }
 }

@@ -4,14 +4,15 @@
 //! The parser delivers events, one after another; nothing here recurses into what the file holds,
 //! aliases are refused and depth is bounded, so a hostile file ends in a message.
 
+use crate::medium::data::column::Column;
+use crate::medium::data::extinction::Extinction;
 use crate::medium::data::material::Material;
 use crate::medium::data::samples::DataCurve;
 use crate::medium::data::samples::Row;
-use crate::medium::data::table::{Column, Table, TableBuilder, file_error, name_of};
+use crate::medium::data::table::{Table, TableBuilder, name_of};
 use crate::medium::data::unit::Unit;
 use crate::medium::dispersion::formula::Formula;
-use crate::medium::error::MediumError;
-use crate::medium::read::extinction::{Data, Extinction};
+use crate::medium::error::{MediumError, file_error};
 use crate::medium::read::text;
 use saphyr_parser::{Event, Parser};
 use std::path::Path;
@@ -20,6 +21,12 @@ use std::path::Path;
 const DEEPEST: usize = 32;
 /// Most elements of `DATA`; the database needs two.
 const MOST_BLOCKS: usize = 16;
+
+/// What a file of optical data holds.
+pub(in crate::medium) enum Data {
+    Material(Box<Material>),
+    Extinction(Extinction),
+}
 
 /// One scalar of the file with the keys that lead to it.
 struct Entry {

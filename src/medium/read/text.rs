@@ -4,8 +4,7 @@
 //! bytes count as Latin-1 (Windows-1252), which is said. Line ends of Windows and of old Macs become
 //! plain ones.
 
-use crate::medium::data::table::file_error;
-use crate::medium::error::MediumError;
+use crate::medium::error::{MediumError, file_error};
 use std::path::Path;
 
 /// Largest file of optical data that is read, bytes; the largest of the databases has 2 MB.

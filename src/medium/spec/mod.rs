@@ -23,6 +23,7 @@ mod resolve;
 
 use crate::medium::dispersion::abbe::AbbeLines;
 use crate::medium::error::{MediumError, invalid};
+use crate::medium::read::ending::has_ending;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -145,10 +146,4 @@ impl Default for MediumSpec {
     fn default() -> Self {
         Self::name("water")
     }
-}
-
-/// Whether a path ends in one of these, in small letters or capitals.
-pub(in crate::medium) fn has_ending(path: &Path, endings: &[&str]) -> bool {
-    let ending = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_lowercase();
-    endings.contains(&ending.as_str())
 }

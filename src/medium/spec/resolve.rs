@@ -1,18 +1,20 @@
 //! From what a scene file says about a medium to the [`Medium`] itself: names are looked up, files
 //! read, coefficients checked.
 
+use crate::medium::band_model::BandModel;
 use crate::medium::data::material::Material;
-use crate::medium::data::table::{file_error, name_of};
+use crate::medium::data::table::name_of;
 use crate::medium::dispersion::abbe::Abbe;
-use crate::medium::dispersion::band_model::BandModel;
 use crate::medium::dispersion::formula::Formula;
-use crate::medium::error::{MediumError, PLAUSIBLE_INDEX, invalid, is_plausible};
+use crate::medium::error::{MediumError, PLAUSIBLE_INDEX, file_error, invalid, is_plausible};
 use crate::medium::kinds::Medium;
 use crate::medium::kramers_kronig::{Absorption, Tails};
 use crate::medium::library;
+use crate::medium::read::ending::has_ending;
 use crate::medium::read::{agf, csv_table, refractive_index_info};
+use crate::medium::shipped::catalogue;
 use crate::medium::solution::{Dye, Solution};
-use crate::medium::spec::{MediumSpec, NamedSpec, has_ending};
+use crate::medium::spec::{MediumSpec, NamedSpec};
 use crate::medium::water::daimon::Daimon;
 use crate::medium::water::microwave::MicrowaveWater;
 use num_complex::Complex64;
@@ -81,7 +83,7 @@ impl NamedSpec {
                 return Err(invalid("medium", &self.name, &accepted));
             }
             other => {
-                let mut material = library::material(other)?;
+                let mut material = catalogue::material(other)?;
                 material.extrapolate = self.extrapolate;
                 Medium::Material(Arc::new(material))
             }

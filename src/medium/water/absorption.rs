@@ -10,7 +10,7 @@
 
 use crate::math::monotone::MonotoneCurve;
 use crate::medium::data::table::Table;
-use crate::medium::library;
+use crate::medium::shipped::tables;
 use std::sync::OnceLock;
 
 /// Pope & Fry are in force between the inner two, Segelstein outside the outer two, in metres.
@@ -24,8 +24,8 @@ pub(in crate::medium) fn extinction(wavelength: f64) -> f64 {
 
 /// ln k by wavelength on the rows of both tables.
 fn joined() -> MonotoneCurve {
-    let outer = logarithm(library::table("water_segelstein_1981"));
-    let inner = logarithm(library::table("water_pope_fry_1997"));
+    let outer = logarithm(tables::table("water_segelstein_1981"));
+    let inner = logarithm(tables::table("water_pope_fry_1997"));
     let mut rows: Vec<f64> = inner.points().0.to_vec();
     rows.extend(outer.points().0.iter().filter(|w| !(JOINS[1]..=JOINS[3]).contains(*w)));
     rows.extend(JOINS);

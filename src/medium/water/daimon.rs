@@ -5,7 +5,7 @@
 
 use crate::medium::data::material::Material;
 use crate::medium::error::{MediumError, invalid};
-use crate::medium::library;
+use crate::medium::shipped::catalogue::daimon_materials;
 use num_complex::Complex64;
 
 /// Water after Daimon & Masumura at one temperature.
@@ -19,7 +19,7 @@ pub struct Daimon {
 impl Daimon {
     /// Temperature in kelvin, from 19 to 24 °C.
     pub fn new(temperature: f64) -> Result<Self, MediumError> {
-        let mut nearest = library::daimon_materials()?;
+        let mut nearest = daimon_materials()?;
         let (from, to) = (292.15, 297.15);
         // Degrees Celsius in, kelvin here: the sum may be off in the last bit.
         if !(from - 1e-9..=to + 1e-9).contains(&temperature) {

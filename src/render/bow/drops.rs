@@ -1,12 +1,11 @@
 //! The drops of a picture: tables read from files, or computed for the picture.
 
 use super::error::BowError;
-use crate::lee::{Beats, Sampling, SamplingNeed};
+use crate::lee::Beats;
+use crate::lee::sampling::{Sampling, SamplingNeed};
 use crate::medium::{Medium, MediumSpec};
 use crate::optics::AmplitudeMatrix;
-use crate::phase_table::{
-    Averaging, Axes, Bodies, ERROR_BANDS, ForwardPeak, PhaseTable, Quantity, Slab, TableHeader,
-};
+use crate::phase_table::{Axes, PhaseTable, Quantity, Slab, TableHeader};
 use crate::plan::Plan;
 use crate::scene::{Choice, Grid, Scene, SceneFile, ShapeName};
 use crate::series::lorenz_mie::Sphere;
@@ -183,21 +182,8 @@ fn mie_table(
             Ok(slab(&solved, radius, w, index, &theta, quantity))
         })
         .collect::<Result<Vec<_>, BowError>>()?;
-    let header = TableHeader {
-        axes: Axes { wavelength, theta, phi: vec![0.0] },
-        quantity,
-        forward_peak: ForwardPeak::Point,
-        rotational_symmetry: true,
-        method: "mie".into(),
-        shape: "sphere".into(),
-        radius,
-        sun_elevation: 0.0,
-        bodies: Some(Bodies::sphere(radius)),
-        averaging: Averaging::default(),
-        tolerance: f64::NAN,
-        scene_toml: String::new(),
-        command_line: String::new(),
-    };
+    let axes = Axes { wavelength, theta, phi: vec![0.0] };
+    let header = TableHeader::of_sphere(radius, axes, quantity);
     Ok(PhaseTable { header, slabs })
 }
 
@@ -223,26 +209,8 @@ fn slab(
         };
         (scale * value) as f32
     });
-    Slab {
-        wavelength,
-        index,
-        values,
-        caustic_order: None,
-        scattering_cross_section: q.q_sca * area,
-        extinction_cross_section: q.q_ext * area,
-        absorption_cross_section: q.q_abs * area,
-        forward_extinction: None,
-        asymmetry: q.asymmetry,
-        energy: None,
-        sum_before_peak: f64::NAN,
-        peak_share: 0.0,
-        error_estimate: 1e-10,
-        error_by_band: 1e-10,
-        tolerance_met: None,
-        error_by_direction: [1e-10; ERROR_BANDS],
-        left_out: 0.0,
-        methods: Vec::new(),
-    }
+    let sections = [q.q_sca * area, q.q_ext * area];
+    Slab::plain((wavelength, index), values, sections, q.asymmetry).with_error(1e-10)
 }
 
 /// The scene of a raindrop's table, where a rainbow is: 100° to 180° from the sun; nothing for a

@@ -2,8 +2,8 @@
 
 mod figure;
 
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot;
-use crate::cli::{Failure, Result};
 use clap::Args;
 use figure::BenchFigure;
 use gonio::compare::speed::{Point, SpeedCase, Trials, measured};

@@ -1,7 +1,8 @@
 //! The diagram as a picture: what its title says, and the bows of ray optics beside it.
 
-use super::{LeeArgs, LeeShape, PolarisationFlag};
-use crate::cli::Result;
+use super::args::{LeeArgs, LeeShape};
+use crate::cli::args::polarisation::PolarisationFlag;
+use crate::cli::failure::Result;
 use gonio::lee::{HIGHEST_ORDER, Request};
 use gonio::medium::Medium;
 use gonio::optics::rainbow_angle;

@@ -1,9 +1,10 @@
 //! Conversions between Abbe numbers, Cauchy's formula and Sellmeier's.
 
-use super::evaluated::heading;
-use super::{MaterialArgs, emit, extent};
-use crate::cli::{Failure, Result};
-use gonio::medium::{Abbe, AbbeLines, Medium, abbe_to_sellmeier, fit_cauchy};
+use super::args::MaterialArgs;
+use super::evaluated::{extent, heading};
+use super::output::emit;
+use crate::cli::failure::{Failure, Result};
+use gonio::medium::{Abbe, Medium, abbe_to_sellmeier, fit_cauchy};
 use serde_json::json;
 use std::fmt::Write as _;
 
@@ -40,18 +41,4 @@ pub(super) fn to_cauchy(args: &MaterialArgs, medium: &Medium, terms: usize) -> R
         "name": medium.name(), "cauchy": coefficients, "range_nm": [from, to], "max_error": error,
     });
     emit(args, text, value)
-}
-
-/// `1.5168,64.17`
-pub(super) fn parse_abbe(text: &str) -> Result<Abbe, String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[index, number]) => Ok(Abbe { index, number }),
-        _ => Err("expected index and Abbe number, as in 1.5168,64.17".into()),
-    }
-}
-
-/// `d`, `D` or `e`
-pub(super) fn parse_lines(text: &str) -> Result<AbbeLines, String> {
-    AbbeLines::parse(text).ok_or("expected d (with F, C), D (with F, C) or e (with F', C')".into())
 }

@@ -1,6 +1,6 @@
 //! A medium at some wavelengths, as text and as JSON; two of them side by side.
 
-use crate::cli::Result;
+use crate::cli::failure::Result;
 use gonio::medium::{Abbe, AbbeLines, Medium};
 use num_complex::Complex64;
 use serde_json::{Value, json};
@@ -21,8 +21,8 @@ impl Evaluated {
 
     fn abbe(&self) -> [(&'static str, Option<Abbe>); 2] {
         [
-            ("vd", Abbe::of_medium(AbbeLines::HeliumD, &self.medium)),
-            ("ve", Abbe::of_medium(AbbeLines::MercuryE, &self.medium)),
+            ("vd", self.medium.abbe(AbbeLines::HeliumD)),
+            ("ve", self.medium.abbe(AbbeLines::MercuryE)),
         ]
     }
 
@@ -93,4 +93,11 @@ pub(super) fn comparison_text(a: &Evaluated, b: &Evaluated) -> String {
         );
     }
     text
+}
+
+/// Least and greatest.
+pub(super) fn extent(values: &[f64]) -> (f64, f64) {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    (low, high)
 }

@@ -1,6 +1,7 @@
 //! The plot of n and k by wavelength, of one material or two.
 
-use crate::cli::Result;
+use super::evaluated::extent;
+use crate::cli::failure::Result;
 use crate::cli::show::plot::{FONT, Figure, PALETTE};
 use gonio::medium::Medium;
 use plotters::coord::Shift;
@@ -34,7 +35,7 @@ pub(super) struct IndexFigure {
 impl IndexFigure {
     /// The curves over the wavelengths asked for (nm), or over what the data cover of 350 to 800 nm.
     pub(super) fn new(media: &[&Medium], asked: Option<&[f64]>) -> Result<Self> {
-        let range = match asked.map(super::extent) {
+        let range = match asked.map(extent) {
             Some((from, to)) if from < to => (from, to),
             _ => common_range(media),
         };
@@ -58,7 +59,7 @@ impl IndexFigure {
     /// Lowest and highest value with a margin, of all curves.
     fn span(&self, values: impl Fn(&Curve) -> &[f64]) -> (f64, f64) {
         let all: Vec<f64> = self.curves.iter().flat_map(|c| values(c).iter().copied()).collect();
-        let (low, high) = super::extent(&all);
+        let (low, high) = extent(&all);
         let margin = (0.06 * (high - low)).max(1e-6 * high.abs());
         (low - margin, high + margin)
     }
@@ -119,7 +120,7 @@ impl IndexFigure {
         area: &DrawingArea<B, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
         let all: Vec<f64> = self.curves.iter().flat_map(|c| c.k.iter().copied()).collect();
-        let (low, high) = super::extent(&all);
+        let (low, high) = extent(&all);
         let label = "extinction coefficient k";
         if high == 0.0 {
             let text = "k = 0: the data hold no absorption";

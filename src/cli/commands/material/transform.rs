@@ -1,7 +1,7 @@
 //! `gonio material --kramers-kronig`: n from k, or k from n.
 
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::notes;
-use crate::cli::{Failure, Result};
 use clap::{Args, ValueEnum};
 use gonio::medium::kramers_kronig::transform::{
     TransformMethod, Transformed, extinction_of_index, index_of_extinction,
