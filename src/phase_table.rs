@@ -130,7 +130,7 @@ pub struct TableHeader {
     pub forward_peak: ForwardPeak,
     /// The scattering does not depend on azimuth; `axes.phi` has one value.
     pub rotational_symmetry: bool,
-    /// `rays`, `mie` or `debye`.
+    /// `rays`, `mie`, `debye` or `tmatrix`.
     pub method: String,
     /// `sphere`, `spheroid`, `raindrop`.
     pub shape: String,

@@ -18,15 +18,17 @@ mod acceptance;
 mod cost;
 mod methods;
 mod orders;
+mod t_matrix;
 
 pub use acceptance::{DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, PlanError, check_rays, phase_shift};
 pub use cost::Cost;
 pub use methods::PlannedRange;
 pub use orders::last_order;
+pub use t_matrix::amplitude_tolerance;
 
 use crate::farfield::assignment::Thresholds;
 use crate::math::digits::to_digits;
-use crate::scene::{Diffraction, Method, Orders, Particle, Scene};
+use crate::scene::{Diffraction, Method, Orders, Orientation, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
@@ -42,6 +44,15 @@ pub enum Engine {
     LorenzMie,
     /// Single orders of the exact series.
     Debye,
+    /// The T-matrix of a body of revolution.
+    TMatrix,
+}
+
+impl Engine {
+    /// Whether waves are computed exactly, all orders at once or one by one, without rays.
+    pub fn is_exact(self) -> bool {
+        matches!(self, Engine::LorenzMie | Engine::Debye | Engine::TMatrix)
+    }
 }
 
 /// How the scattering depends on azimuth.
@@ -103,14 +114,20 @@ impl Plan {
     pub fn by(scene: &Scene, thresholds: Thresholds) -> Result<Self, PlanError> {
         let (shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
         let mut reasons = Vec::new();
-        let engine = engine(scene, &shape, &mut reasons)?;
-        let symmetry = symmetry(&shape, &mut reasons);
+        let engine = engine(scene, &shape, radius, &thresholds, &mut reasons)?;
+        let random = scene.orientation == Orientation::Random;
+        let symmetry = if random && !shape.is_sphere() {
+            reasons.push("one azimuth is enough: a mean over all orientations".into());
+            Symmetry::Rotational
+        } else {
+            symmetry(&shape, &mut reasons)
+        };
         let indices = scene
             .wavelengths
             .iter()
             .map(|&w| scene.medium.index(w))
             .collect::<Result<Vec<_>, _>>()?;
-        if matches!(engine, Engine::Meridians | Engine::Patches) {
+        if !engine.is_exact() {
             check_particle(scene, radius, &indices, &thresholds, &mut reasons)?;
         }
         if indices.iter().all(|i| i.im == 0.0) {
@@ -213,7 +230,13 @@ pub fn shape(particle: &Particle, sun_elevation: f64) -> Result<(Shape, f64), Sh
     })
 }
 
-fn engine(scene: &Scene, shape: &Shape, reasons: &mut Vec<String>) -> Result<Engine, PlanError> {
+fn engine(
+    scene: &Scene,
+    shape: &Shape,
+    radius: f64,
+    by: &Thresholds,
+    reasons: &mut Vec<String>,
+) -> Result<Engine, PlanError> {
     let sphere = shape.is_sphere();
     Ok(match scene.method {
         Method::Auto if sphere => {
@@ -224,6 +247,16 @@ fn engine(scene: &Scene, shape: &Shape, reasons: &mut Vec<String>) -> Result<Eng
         Method::Debye if !sphere => return Err(PlanError::SeriesNeedsSphere("debye")),
         Method::Mie => Engine::LorenzMie,
         Method::Debye => Engine::Debye,
+        Method::Auto if scene.orientation == Orientation::Random => {
+            t_matrix::check(scene, shape, radius)?;
+            reasons.push("rays are skipped: the T-matrix averages over orientations".into());
+            Engine::TMatrix
+        }
+        Method::TMatrix => {
+            t_matrix::check(scene, shape, radius)?;
+            Engine::TMatrix
+        }
+        Method::Auto if t_matrix::takes(scene, shape, radius, by, reasons)? => Engine::TMatrix,
         Method::Auto | Method::Rays => {
             if scene.interference && scene.diffraction == Diffraction::Airy {
                 Engine::Meridians
@@ -285,6 +318,7 @@ fn orders(
     reasons: &mut Vec<String>,
 ) -> (Vec<u32>, bool) {
     match &scene.orders {
+        _ if engine == Engine::TMatrix => (Vec::new(), true),
         Orders::List(list) => (list.clone(), engine != Engine::Debye),
         Orders::Auto => {
             let last = orders::last_order_by(by, index, scene.tolerance);

@@ -32,6 +32,7 @@ mod directions;
 mod energy;
 mod error;
 mod header;
+mod t_matrix;
 
 pub use cross_sections::CrossSections;
 pub use directions::{Seen, finite, scatter, scatter_with_sections};
@@ -126,6 +127,9 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
         let slab = series_slab(scene, plan, wavelength)?;
         return Ok(Slab { methods: plan.series_parts(), ..slab });
+    }
+    if plan.engine == Engine::TMatrix {
+        return Ok(t_matrix::slab(scene, plan, wavelength, index)?);
     }
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;

@@ -17,7 +17,8 @@ const FLOORS: [(u32, &[&str]); 13] = [
     (8, &["lee", "batch", "scatter"]),
     (7, &["simulate"]),
     (6, &["plan", "tabulate"]),
-    (5, &["farfield"]),
+    // Rain by its T-matrices.
+    (5, &["farfield", "radar"]),
     // The export formats that are netCDF files use the writer of hdf5.
     (4, &["series", "export"]),
     (3, &["hdf5"]),

@@ -148,7 +148,7 @@ fn distribution_axes(distribution: &Table) -> Result<Vec<Axis>, BatchError> {
 /// The values of a key that is swept; `None` for one that is not.
 fn swept_values(key: &str, value: &Value) -> Result<Option<Vec<Value>>, BatchError> {
     match (key, value) {
-        ("light.wavelengths_nm", _) => Ok(None),
+        ("light.wavelengths_nm" | "light.frequencies_ghz", _) => Ok(None),
         // A list of numbers is one choice of orders; a sweep lists such lists (or "auto").
         ("model.orders", Value::Array(list)) if list.iter().all(Value::is_integer) => Ok(None),
         (_, Value::Array(list)) => Ok(Some(list.clone())),

@@ -10,7 +10,7 @@ mod show;
 
 use clap::{Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, plan, rays, render, scatter, table,
+    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, table,
     validate,
 };
 use failure::{Failure, Result};
@@ -37,6 +37,7 @@ enum Command {
     Table(table::TableArgs),
     Scatter(scatter::ScatterArgs),
     Rays(rays::RaysArgs),
+    Radar(radar::RadarArgs),
     Plan(plan::PlanArgs),
     Info(info::InfoArgs),
     Validate(validate::ValidateArgs),
@@ -67,6 +68,7 @@ fn run(command: Command) -> Result<()> {
         Command::Table(args) => table::run(args),
         Command::Scatter(args) => scatter::run(args),
         Command::Rays(args) => rays::run(args),
+        Command::Radar(args) => radar::run(args),
         Command::Plan(args) => plan::run(args),
         Command::Info(args) => info::run(args),
         Command::Validate(args) => validate::run(args),

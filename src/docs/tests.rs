@@ -84,7 +84,8 @@ fn ranges_and_words_are_those_of_the_program() {
     for section in ["particle", "light", "table", "model"] {
         for row in rows(section) {
             let (key, accepted) = (&row[0], &row[2]);
-            let axis = ["wavelengths_nm", "theta_deg", "azimuth_deg"].contains(&key.as_str());
+            let axis = ["wavelengths_nm", "frequencies_ghz", "theta_deg", "azimuth_deg"]
+                .contains(&key.as_str());
             if let Some((from, to)) = accepted.split_once(" to ")
                 && let (Ok(from), Ok(to)) = (from.parse::<f64>(), to.parse::<f64>())
             {

@@ -8,6 +8,7 @@ use super::error::{
 use super::own::OwnMedium;
 use super::solution::{Host, Solution};
 use super::water::daimon::Daimon;
+use super::water::microwave::{MICROWAVES, MicrowaveWater};
 use super::water::{self, sea};
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -17,7 +18,8 @@ use std::sync::Arc;
 pub enum Medium {
     /// The same index at every wavelength.
     Constant(Complex64),
-    /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables.
+    /// Liquid water after IAPWS R9-97, temperature in kelvin, at 1 atm; k from measured tables; in the
+    /// microwave after Liebe, Hufford & Manabe 1991.
     Water {
         /// Kelvin.
         temperature: f64,
@@ -28,6 +30,13 @@ pub enum Medium {
         temperature: f64,
         /// kg/m³.
         density: f64,
+    },
+    /// Liquid water in the microwave.
+    MicrowaveWater {
+        /// By which formula.
+        model: MicrowaveWater,
+        /// Kelvin.
+        temperature: f64,
     },
     /// Sea water, temperature in kelvin, salinity in g/kg.
     SeaWater {
@@ -63,7 +72,11 @@ impl Medium {
     fn index_of_data(&self, wavelength: f64) -> Result<Complex64, MediumError> {
         match self {
             Medium::Constant(index) => Ok(*index),
+            Medium::Water { temperature } if wavelength >= MICROWAVES => {
+                MicrowaveWater::Liebe1991.index(wavelength, *temperature)
+            }
             Medium::Water { temperature } => water::index(wavelength, *temperature),
+            Medium::MicrowaveWater { model, temperature } => model.index(wavelength, *temperature),
             Medium::WaterOfDensity { temperature, density } => {
                 water::at_density(wavelength, *temperature, *density)
             }
@@ -82,6 +95,7 @@ impl Medium {
         match self {
             Medium::Constant(_) => (0.0, f64::INFINITY),
             Medium::Water { .. } | Medium::WaterOfDensity { .. } => water::RANGE,
+            Medium::MicrowaveWater { model, .. } => model.range(),
             Medium::SeaWater { .. } => sea::RANGE,
             Medium::Daimon(water) => water.range(),
             Medium::Material(material) => material.range,
@@ -99,6 +113,9 @@ impl Medium {
             Medium::WaterOfDensity { temperature, density } => {
                 format!("water at {}, {density} kg/m³", celsius(*temperature))
             }
+            Medium::MicrowaveWater { model, temperature } => {
+                format!("{} at {}", model.name(), celsius(*temperature))
+            }
             Medium::SeaWater { temperature, salinity } => {
                 format!("sea water at {}, {salinity} g/kg", celsius(*temperature))
             }
@@ -114,6 +131,7 @@ impl Medium {
         match self {
             Medium::Constant(_) => "given".into(),
             Medium::Water { .. } | Medium::WaterOfDensity { .. } => water::SOURCE.into(),
+            Medium::MicrowaveWater { model, .. } => model.source().into(),
             Medium::SeaWater { .. } => sea::SOURCE.into(),
             Medium::Daimon(water) => water.source().into(),
             Medium::Material(m) if m.extrapolate => {
@@ -160,6 +178,7 @@ impl Medium {
                 water::check_temperature(*temperature, true)?;
                 water::check_density(*density)
             }
+            Medium::MicrowaveWater { model, temperature } => model.check_temperature(*temperature),
             Medium::SeaWater { temperature, salinity } => {
                 sea::check_conditions(*temperature, *salinity)
             }

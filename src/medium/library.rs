@@ -11,6 +11,7 @@ use crate::medium::shipped::tables::table;
 use crate::medium::solution::Dye;
 use crate::medium::spelling::{key, nearest};
 use crate::medium::water::daimon::Daimon;
+use crate::medium::water::microwave::MicrowaveWater;
 use std::sync::Arc;
 
 /// One line of the library's list.
@@ -31,7 +32,8 @@ pub struct LibraryEntry {
 }
 
 /// Media that depend on temperature, density or salinity.
-const WATERS: [&str; 3] = ["water", "sea-water", "water-daimon"];
+const WATERS: [&str; 5] =
+    ["water", "sea-water", "water-daimon", "water-liebe-1991", "water-turner-2016"];
 
 /// Dyes that are band models, not measurements: only solutes.
 const MODELS: [&str; 2] = ["rose-bengal-model", "fuchsine-model"];
@@ -109,6 +111,10 @@ pub fn list() -> Result<Vec<LibraryEntry>, MediumError> {
         entry("sea-water", "formula of temperature and salinity; k of water", &sea),
         entry("water-daimon", "formulas at 19 to 24 °C", &daimon),
     ];
+    for (name, model) in MicrowaveWater::NAMES {
+        let water = Medium::MicrowaveWater { model, temperature: 293.15 };
+        list.push(entry(name, "formula of temperature, microwave", &water));
+    }
     for (name, _, kind) in TABLES {
         list.push(entry(name, kind, &Medium::Material(Arc::new(material(name)?))));
     }

@@ -59,3 +59,4 @@ pub use spec::density::Density;
 pub use spec::index_text::parse_index;
 pub use spec::{MediumSpec, NamedSpec};
 pub use water::daimon::Daimon;
+pub use water::microwave::{MicrowaveWater, wavelength_of_ghz};

@@ -58,6 +58,13 @@ impl AmplitudeMatrix {
     }
 }
 
+/// Sign of a Mueller element (0 to 15, row by row) in the mirror image: those that couple I, Q with U, V
+/// change it.
+pub fn mirror_sign(element: usize) -> f64 {
+    let (row, column) = (element / 4, element % 4);
+    if (row < 2) == (column < 2) { 1.0 } else { -1.0 }
+}
+
 impl Add for AmplitudeMatrix {
     type Output = Self;
     fn add(self, o: Self) -> Self {

@@ -40,7 +40,7 @@ mod fresnel;
 mod grazing;
 mod polarisation;
 
-pub use amplitude::AmplitudeMatrix;
+pub use amplitude::{AmplitudeMatrix, mirror_sign};
 pub use descartes::rainbow_angle;
 pub use fresnel::{Fresnel, fresnel};
 pub(crate) use fresnel::{curved_from_inside, curved_from_outside};

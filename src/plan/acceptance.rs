@@ -3,6 +3,7 @@
 use crate::farfield::assignment::Thresholds;
 use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
+use crate::series::tmatrix::TMatrixError;
 use crate::shape::ShapeError;
 use num_complex::Complex64;
 
@@ -14,7 +15,11 @@ pub enum PlanError {
     Shape(#[from] ShapeError),
     #[error(transparent)]
     Medium(#[from] MediumError),
-    #[error("method = \"{0}\": the exact series serve spheres only; accepted here: \"rays\"")]
+    #[error(transparent)]
+    TMatrix(#[from] TMatrixError),
+    #[error(
+        "method = \"{0}\": the exact series serve spheres only; accepted here: \"rays\", \"tmatrix\""
+    )]
     SeriesNeedsSphere(&'static str),
     #[error(
         "index {index}{place} with size parameter {size_parameter:.0}: light loses more than the ray \

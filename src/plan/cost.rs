@@ -7,6 +7,7 @@
 
 use super::{Engine, Plan, Symmetry};
 use crate::scene::Scene;
+use crate::series::tmatrix::expectation;
 use crate::shape::Body;
 use std::f64::consts::TAU;
 
@@ -39,6 +40,10 @@ const PARTIAL_WAVES: f64 = 420.0;
 /// Spheres: coefficients per size parameter; means over sizes: sums on all threads.
 const SERIES_SIZE: f64 = 1000.0;
 const MEANS: f64 = 82e6;
+/// T-matrices: all blocks, and what makes them on each thread, per cube of the degrees; values (f64) of the
+/// computed half of the directions.
+const T_MATRIX: f64 = 40.0;
+const T_MATRIX_VALUE: f64 = 4.0;
 
 /// Processor seconds to compress and write one value, to start and draw an empty preview, and to draw
 /// one of its directions.
@@ -72,7 +77,7 @@ impl Plan {
         let directions = theta * azimuths as f64;
         let values = directions * scene.quantity.elements() as f64;
         let wavelengths = scene.wavelengths.len() as f64;
-        let series = matches!(self.engine, Engine::LorenzMie | Engine::Debye);
+        let series = self.engine.is_exact();
 
         let slabs = SLABS.min(wavelengths + 1.0) * 4.0 * values;
         // half the azimuths are computed, and held until the slab is filled
@@ -86,6 +91,12 @@ impl Plan {
             memory: memory as u64,
             writing_seconds: WRITE_VALUE * values * wavelengths + drawing,
         }
+    }
+
+    /// Values of a T-matrix's table before they are turned into a slab, bytes.
+    fn directions(&self, scene: &Scene) -> f64 {
+        let azimuths = if self.symmetry == Symmetry::Rotational { 1 } else { scene.phi.len() };
+        T_MATRIX_VALUE * (scene.theta.len() * azimuths * scene.quantity.elements()) as f64
     }
 
     /// What the method holds for one wavelength.
@@ -110,6 +121,10 @@ impl Plan {
                 let others = scene.wavelengths.len().saturating_sub(1) as f64;
                 let left = 1.0 + LEFT_BETWEEN * (others / (LEFT_AFTER - 1.0)).min(1.0);
                 (MERIDIANS + tangled) * orders * left
+            }
+            Engine::TMatrix => {
+                let degrees = expectation(&self.shape, x).map_or(0.0, |e| e.degrees as f64);
+                T_MATRIX * degrees.powi(3) + self.directions(scene)
             }
             Engine::LorenzMie | Engine::Debye => {
                 let many = scene.size_distribution.is_some() || scene.bandwidth > 0.0;

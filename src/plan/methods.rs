@@ -55,7 +55,7 @@ impl Plan {
                 Some(Assignment::new(tracer, orders, size_parameter, self.tolerance, by))
             }
             Engine::Patches => Some(Assignment::of_patches(tracer, orders, size_parameter, by)),
-            Engine::LorenzMie | Engine::Debye => None,
+            Engine::LorenzMie | Engine::Debye | Engine::TMatrix => None,
         }
     }
 
@@ -72,6 +72,10 @@ impl Plan {
             Engine::Debye => {
                 self.orders.iter().map(|&order| part(Some(order), "Debye series")).collect()
             }
+            Engine::TMatrix => vec![MethodPart {
+                reason: "a body of revolution: exact".into(),
+                ..part(None, "T-matrix")
+            }],
             Engine::Meridians | Engine::Patches => Vec::new(),
         }
     }

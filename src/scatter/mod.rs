@@ -3,7 +3,7 @@
 //!
 //! Where [`simulate`](crate::simulate) makes tables of a scene, this answers for single directions and
 //! takes what it is told: an index, a size parameter, orders. [`lorenz_mie`] and [`debye`] serve spheres,
-//! [`rays`] any shape. Efficiencies refer to the sphere of equal volume.
+//! [`rays`] any shape, [`t_matrix`] bodies of revolution. Efficiencies refer to the sphere of equal volume.
 //!
 //! ```
 //! use gonio::scatter::{Request, lorenz_mie};
@@ -25,15 +25,18 @@
 mod rays;
 mod series;
 mod size;
+mod tmatrix;
 
 pub use rays::{RayDiffraction, RayRequest, rays};
 pub use series::{DebyeTerms, debye, lorenz_mie};
 pub use size::{Size, SizeConflict};
+pub use tmatrix::t_matrix;
 
 use crate::farfield::ErrorEstimate;
 use crate::fault::{Blame, Fault};
 use crate::optics::AmplitudeMatrix;
 use crate::plan::PlanError;
+use crate::series::tmatrix::TMatrixError;
 use crate::series::{Efficiencies, SeriesError};
 use crate::simulate::SimulateError;
 use num_complex::Complex64;
@@ -49,7 +52,7 @@ pub struct Request {
     pub theta: Vec<f64>,
     /// Of all directions, radians.
     pub azimuth: f64,
-    /// Relative error asked of rays and of the number of Debye terms.
+    /// Relative error asked of rays, of the number of Debye terms and of a T-matrix.
     pub tolerance: f64,
 }
 
@@ -64,7 +67,7 @@ pub struct Scattering {
     pub diffraction_included: bool,
     /// What a sum over Debye's terms from the first on leaves out.
     pub remainder: Option<Remainder>,
-    /// How far intensities by rays may be from the truth.
+    /// How far intensities by rays or a T-matrix may be from the truth.
     pub worth: Option<ErrorEstimate>,
 }
 
@@ -90,6 +93,8 @@ pub enum ScatterError {
     #[error(transparent)]
     Series(#[from] SeriesError),
     #[error(transparent)]
+    TMatrix(#[from] TMatrixError),
+    #[error(transparent)]
     Simulate(#[from] SimulateError),
     /// Share of the light.
     #[error("energy does not add up: {0:e} of the light is unaccounted for")]
@@ -101,6 +106,7 @@ impl Blame for ScatterError {
         match self {
             ScatterError::Plan(error) => error.fault(),
             ScatterError::Series(error) => error.fault(),
+            ScatterError::TMatrix(error) => error.fault(),
             ScatterError::Simulate(error) => error.fault(),
             ScatterError::Energy(_) => Fault::Run,
         }

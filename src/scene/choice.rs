@@ -1,7 +1,7 @@
 //! Words that stand for one of a closed set of values, in scene files and flags alike.
 
 use super::error::{SceneError, nearest};
-use super::{Diffraction, Method, SunDisc};
+use super::{Diffraction, Method, Orientation, SunDisc};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use serde::de::Error as _;
@@ -77,6 +77,47 @@ impl Named for ShapeName {
     ];
 }
 
+impl Named for Orientation {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("upright", Orientation::Upright), ("random", Orientation::Random)];
+}
+
+/// An orientation in a scene file: its word, or a table with `kind = "…"`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrientationKey(pub Orientation);
+
+impl OrientationKey {
+    /// From a word, as in a flag.
+    ///
+    /// # Errors
+    /// A word that is not known, with those that are.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        Orientation::from_name(word).map(Self)
+    }
+}
+
+impl Serialize for OrientationKey {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for OrientationKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let written = toml::Value::deserialize(deserializer)?;
+        let word = match &written {
+            toml::Value::Table(table) if table.len() == 1 => table.get("kind"),
+            other => Some(other),
+        };
+        let word = word.and_then(toml::Value::as_str).ok_or_else(|| {
+            D::Error::custom(format!(
+                "{written} is no orientation; accepted: \"upright\", \"random\", {{ kind = \"random\" }}"
+            ))
+        })?;
+        Self::parse(word).map_err(D::Error::custom)
+    }
+}
+
 impl Named for RaindropModel {
     const NAMES: &'static [(&'static str, Self)] = &[
         (RaindropModel::BeardChuang1987.name(), RaindropModel::BeardChuang1987),
@@ -106,6 +147,7 @@ impl Named for Method {
         ("rays", Method::Rays),
         ("mie", Method::Mie),
         ("debye", Method::Debye),
+        ("tmatrix", Method::TMatrix),
     ];
 }
 

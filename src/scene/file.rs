@@ -4,7 +4,7 @@
 //! list of what is known. Every key is optional, because a flag may give what the file does not;
 //! [`SceneFile::overridden_by`] lays flags over a file.
 
-use super::choice::{Choice, ShapeName};
+use super::choice::{Choice, OrientationKey, ShapeName};
 #[cfg(feature = "cli")]
 use super::flags::{index, medium, word};
 use super::grid::Grid;
@@ -97,6 +97,8 @@ section! {
             conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"]]
         /// Vertical over horizontal diameter of a spheroid
         axis_ratio: f64 [value_name = "RATIO", allow_negative_numbers = true]
+        /// Axis upright, or at random
+        orientation: OrientationKey [value_parser = OrientationKey::parse]
         /// Shape model of a raindrop
         model: Choice<RaindropModel> [value_parser = word::<RaindropModel>()]
         /// Temperature of the medium
@@ -118,6 +120,9 @@ section! {
         sun_elevation_deg: f64 [value_name = "DEG", allow_negative_numbers = true]
         /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
         wavelengths_nm: Grid [value_name = "NM", allow_hyphen_values = true]
+        /// Frequencies in place of wavelengths, GHz: FROM:TO:COUNT or A,B,C
+        frequencies_ghz: Grid [value_name = "GHZ", allow_hyphen_values = true,
+            conflicts_with = "wavelengths_nm"]
         /// Full width at half maximum of the band that each wavelength stands for (spheres)
         bandwidth_nm: f64 [value_name = "NM", allow_negative_numbers = true]
         /// Mean over the sun's disc (spheres)
@@ -144,7 +149,7 @@ section! {
 section! {
     /// `[model]`: how it is computed.
     ModelKeys, "Model" {
-        /// Rays, an exact series for spheres, or whichever suits
+        /// Rays, an exact series for spheres, the T-matrix, or whichever suits
         method: Choice<Method> [value_parser = word::<Method>()]
         /// Add rays with their phases
         interference: bool [value_name = "true|false"]
@@ -175,7 +180,7 @@ impl SceneFile {
     pub fn overridden_by(self, flags: &SceneFile) -> SceneFile {
         SceneFile {
             particle: self.particle.overridden_by(&flags.particle),
-            light: flags.light.clone().over(self.light),
+            light: self.light.overridden_by(&flags.light),
             table: flags.table.clone().over(self.table),
             model: self.model.overridden_by(&flags.model),
         }
@@ -207,10 +212,21 @@ impl ParticleKeys {
     }
 }
 
+impl LightKeys {
+    fn overridden_by(mut self, flags: &LightKeys) -> LightKeys {
+        // Wavelengths replace frequencies, and the other way round.
+        if flags.wavelengths_nm.is_some() || flags.frequencies_ghz.is_some() {
+            (self.wavelengths_nm, self.frequencies_ghz) = (None, None);
+        }
+        flags.clone().over(self)
+    }
+}
+
 impl ModelKeys {
     fn overridden_by(mut self, flags: &ModelKeys) -> ModelKeys {
         // Another method replaces what goes with rays alone.
-        let series = [Some(Choice(Method::Mie)), Some(Choice(Method::Debye))];
+        let series =
+            [Method::Mie, Method::Debye, Method::TMatrix].map(|method| Some(Choice(method)));
         if series.contains(&flags.method) && flags.method != self.method {
             (self.interference, self.diffraction, self.rays_across) = (None, None, None);
         }

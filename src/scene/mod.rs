@@ -23,7 +23,7 @@ mod sizes;
 mod tests;
 mod validate;
 
-pub use choice::{Choice, Named, ShapeName};
+pub use choice::{Choice, Named, OrientationKey, ShapeName};
 // Batches use them, and batches need HDF5.
 pub use crate::math::bytes::human_bytes;
 #[cfg(feature = "hdf5")]
@@ -77,10 +77,19 @@ pub enum Particle {
     },
 }
 
+/// How the axes of particles stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// Vertically.
+    Upright,
+    /// In all directions alike.
+    Random,
+}
+
 /// How scattering is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Lorenz–Mie for a sphere, rays otherwise.
+    /// Lorenz–Mie for a sphere, the T-matrix where one converges at a cost that is allowed, rays otherwise.
     Auto,
     /// Rays traced with phase, on any particle.
     Rays,
@@ -88,6 +97,8 @@ pub enum Method {
     Mie,
     /// Single orders of the Lorenz–Mie series, on spheres.
     Debye,
+    /// The T-matrix, on bodies of revolution.
+    TMatrix,
 }
 
 /// Diffraction in the ray method.
@@ -128,6 +139,8 @@ pub struct Scene {
     pub particle: Particle,
     /// Many spheres in place of one.
     pub size_distribution: Option<SizeDistribution>,
+    /// How its axis stands.
+    pub orientation: Orientation,
     /// What the particle is made of.
     pub medium: Medium,
     /// Of the medium, where it is known.

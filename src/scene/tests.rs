@@ -65,6 +65,7 @@ fn known_keys_are_those_of_the_structs() {
             diameter_mm: Some(1.0),
             size_distribution: Some(SizeKeys::Delta { radius_um: 1.0 }),
             axis_ratio: Some(1.0),
+            orientation: Some(OrientationKey(Orientation::Random)),
             model: Some(Choice(RaindropModel::BeardChuang1987)),
             temperature_c: Some(20.0),
             density_kg_m3: Some(1000.0),
@@ -74,6 +75,7 @@ fn known_keys_are_those_of_the_structs() {
         light: LightKeys {
             sun_elevation_deg: Some(0.0),
             wavelengths_nm: Some(Grid::List(vec![1.0])),
+            frequencies_ghz: Some(Grid::List(vec![1.0])),
             bandwidth_nm: Some(1.0),
             sun_disc: Some(Choice(SunDisc::Uniform)),
         },

@@ -5,8 +5,8 @@ use super::error::SceneError;
 use super::file::SceneFile;
 use super::grid::Grid;
 use super::particle::{density_of, medium_of, particle_of, size_distribution};
-use super::{Diffraction, Method, Orders, Particle, Scene, SunDisc};
-use crate::medium::MediumSpec;
+use super::{Diffraction, Method, Orders, Orientation, Particle, Scene, SunDisc};
+use crate::medium::{MediumSpec, wavelength_of_ghz};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use std::path::Path;
@@ -35,12 +35,20 @@ impl SceneFile {
         let resolved = self.with_defaults();
         let (particle, light) = (&resolved.particle, &resolved.light);
         let (table, model) = (&resolved.table, &resolved.model);
-        let wavelengths = wavelengths(light.wavelengths_nm.as_ref())?;
+        let wavelengths = match (&light.frequencies_ghz, &self.light.wavelengths_nm) {
+            (Some(grid), Some(_)) => {
+                let accepted = "wavelengths_nm is given too; keep one of the two";
+                return Err(SceneError::invalid("light.frequencies_ghz", grid, accepted));
+            }
+            (Some(grid), None) => frequencies(grid)?,
+            (None, _) => wavelengths(light.wavelengths_nm.as_ref())?,
+        };
         let scene = Scene {
             particle: particle_of(particle)?,
             size_distribution: size_distribution(particle)?,
             density: density_of(particle, &wavelengths)?,
             medium: medium_of(particle, folder, &wavelengths)?,
+            orientation: particle.orientation.map_or(Orientation::Upright, |key| key.0),
             bandwidth: bandwidth(light.bandwidth_nm, &wavelengths)?,
             sun_disc: chosen(light.sun_disc, "light.sun_disc")?,
             sun_elevation: sun_elevation(light.sun_elevation_deg)?,
@@ -81,7 +89,9 @@ impl SceneFile {
         }
         let range = |from, to, count| Grid::Range { from, to, count };
         full.light.sun_elevation_deg.get_or_insert(20.0);
-        full.light.wavelengths_nm.get_or_insert_with(|| range(380.0, 720.0, 33));
+        if full.light.frequencies_ghz.is_none() {
+            full.light.wavelengths_nm.get_or_insert_with(|| range(380.0, 720.0, 33));
+        }
         full.light.sun_disc.get_or_insert(Choice(SunDisc::None));
         full.table.theta_deg.get_or_insert_with(|| range(0.0, 180.0, 1801));
         full.table.azimuth_deg.get_or_insert_with(|| range(0.0, 360.0, 361));
@@ -139,9 +149,16 @@ fn axis(
 }
 
 fn wavelengths(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
-    let accepted = "wavelengths in vacuum, 1 to 1e6 nm, ascending";
-    let values = axis("light.wavelengths_nm", grid, 1.0..=1e6, accepted)?;
+    let accepted = "wavelengths in vacuum, 1 to 1e9 nm, ascending";
+    let values = axis("light.wavelengths_nm", grid, 1.0..=1e9, accepted)?;
     Ok(values.into_iter().map(|nm| nm * 1e-9).collect())
+}
+
+/// Wavelengths of frequencies: the highest first, so that they ascend.
+fn frequencies(grid: &Grid) -> Result<Vec<f64>, SceneError> {
+    let accepted = "frequencies in GHz, 0.3 to 2.9e8, ascending";
+    let values = axis("light.frequencies_ghz", Some(grid), 0.3..=2.9e8, accepted)?;
+    Ok(values.into_iter().rev().map(wavelength_of_ghz).collect())
 }
 
 fn theta(grid: Option<&Grid>) -> Result<Vec<f64>, SceneError> {
@@ -220,23 +237,35 @@ impl Scene {
     fn check_method(&self) -> Result<(), SceneError> {
         let series = matches!(self.method, Method::Mie | Method::Debye);
         if series && !matches!(self.particle, Particle::Sphere { .. }) {
-            let accepted =
-                "the exact series are for spheres; other shapes take \"rays\" or \"auto\"";
+            let accepted = "the exact series are for spheres; other shapes take \"rays\", \"tmatrix\" or \"auto\"";
             return Err(SceneError::invalid("model.method", self.method.name(), accepted));
         }
         let sphere = matches!(self.particle, Particle::Sphere { .. });
+        let takes_any = matches!(self.method, Method::Auto | Method::TMatrix);
+        if self.orientation == Orientation::Random && !sphere && !takes_any {
+            let value = format!("random with method = \"{}\"", self.method.name());
+            let accepted =
+                "the T-matrix averages over orientations: method = \"tmatrix\" or \"auto\"";
+            return Err(SceneError::invalid("particle.orientation", value, accepted));
+        }
         let mie = self.method == Method::Mie || (self.method == Method::Auto && sphere);
-        if !mie && self.method != Method::Debye {
+        let random = self.orientation == Orientation::Random && !sphere;
+        let all_at_once = mie || random || self.method == Method::TMatrix;
+        if !all_at_once && self.method != Method::Debye {
             return Ok(());
         }
-        // What Lorenz–Mie (also by "auto" of a sphere) and the sum of Debye terms know nothing of.
+        // What Lorenz–Mie (also by "auto" of a sphere), the T-matrix and the sum of Debye terms know nothing of.
         let refuse = |key: &str, value: String, accepted: &str| {
             let method = format!("with method = \"{}\"", self.method.name());
             Err(SceneError::invalid(key, format!("{value} {method}"), accepted))
         };
-        if let (true, Orders::List(list)) = (mie, &self.orders) {
-            let accepted = "Lorenz–Mie, which \"auto\" takes for a sphere, has all orders at once; \
-                            method = \"debye\" or \"rays\" takes a list";
+        if let (true, Orders::List(list)) = (all_at_once, &self.orders) {
+            let accepted = if mie {
+                "Lorenz–Mie, which \"auto\" takes for a sphere, has all orders at once; method = \"debye\" or \
+                 \"rays\" takes a list"
+            } else {
+                "the T-matrix has all orders at once; method = \"rays\" takes a list"
+            };
             return refuse("model.orders", format!("{list:?}"), accepted);
         }
         if let Some(rays) = self.rays_across {
@@ -262,7 +291,7 @@ impl Scene {
     /// Means over sizes, bands and the sun's disc are taken of the exact series.
     fn check_means(&self) -> Result<(), SceneError> {
         let sphere = matches!(self.particle, Particle::Sphere { .. });
-        let exact = sphere && self.method != Method::Rays;
+        let exact = sphere && !matches!(self.method, Method::Rays | Method::TMatrix);
         let many = self.size_distribution.is_some();
         let single = self.method == Method::Debye && (many || self.bandwidth > 0.0);
         if exact && !single {

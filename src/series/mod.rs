@@ -22,6 +22,7 @@ pub mod lorenz_mie;
 pub mod mean;
 mod stretch;
 pub mod table;
+pub mod tmatrix;
 
 use crate::fault::{Blame, Fault};
 use num_complex::Complex64;

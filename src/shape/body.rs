@@ -73,6 +73,11 @@ impl Shape {
         self.is_sphere() || self.down.x.abs() < 1e-12
     }
 
+    /// The sun's elevation (radians) that the axis was laid for.
+    pub fn sun_elevation(&self) -> f64 {
+        self.down.z.atan2(-self.down.x)
+    }
+
     /// True when the body is a sphere, by whatever kind it is described.
     pub fn is_sphere(&self) -> bool {
         match &self.body {
@@ -94,7 +99,7 @@ impl Shape {
     }
 
     /// `F` and its first derivatives at `(q, ζ)`: what an intersection needs.
-    pub(super) fn slope<T: Scalar>(&self, q: T, depth: T) -> Slope<T> {
+    pub(crate) fn slope<T: Scalar>(&self, q: T, depth: T) -> Slope<T> {
         match &self.body {
             Body::Sphere => sphere::slope(q),
             Body::Spheroid(spheroid) => spheroid.slope(q, depth),

@@ -6,6 +6,7 @@ use crate::phase_table::InvalidTable;
 use crate::plan::PlanError;
 use crate::series::SeriesError;
 use crate::series::mean::MeanError;
+use crate::series::tmatrix::TMatrixError;
 
 /// What can go wrong on the main path.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +18,8 @@ pub enum SimulateError {
     Medium(#[from] MediumError),
     #[error(transparent)]
     Series(#[from] SeriesError),
+    #[error(transparent)]
+    TMatrix(#[from] TMatrixError),
     #[error(transparent)]
     Mean(#[from] MeanError),
     #[error(
@@ -41,6 +44,7 @@ impl Blame for SimulateError {
             SimulateError::Plan(error) => error.fault(),
             SimulateError::Medium(error) => error.fault(),
             SimulateError::Series(error) => error.fault(),
+            SimulateError::TMatrix(error) => error.fault(),
             SimulateError::Mean(error) => error.fault(),
             SimulateError::Energy { .. }
             | SimulateError::Wrong(_)

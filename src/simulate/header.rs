@@ -31,6 +31,7 @@ pub(super) fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> Tab
             Engine::Meridians | Engine::Patches => "rays",
             Engine::LorenzMie => "mie",
             Engine::Debye => "debye",
+            Engine::TMatrix => "tmatrix",
         }
         .into(),
         shape: match &scene.particle {
@@ -73,8 +74,7 @@ fn bodies(scene: &Scene, plan: &Plan) -> Bodies {
 
 /// What a scene averages over.
 fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
-    let rays = matches!(plan.engine, Engine::Meridians | Engine::Patches);
-    let filtered = rays && scene.diffraction == Diffraction::Gaussian;
+    let filtered = !plan.engine.is_exact() && scene.diffraction == Diffraction::Gaussian;
     Averaging {
         sun_disc: match scene.sun_disc {
             SunDisc::None => DiscOfSun::None,

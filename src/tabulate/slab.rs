@@ -4,7 +4,7 @@ use super::forward_peak::{ForwardCells, PeakRows, PeakSample};
 use crate::farfield::forward::wave::ForwardWave;
 use crate::farfield::patches::gaussian_filter;
 use crate::farfield::{Column, FarField};
-use crate::optics::AmplitudeMatrix;
+use crate::optics::{AmplitudeMatrix, mirror_sign};
 use crate::phase_table::{Axes, ForwardPeak, Quantity};
 use ndarray::{Array2, Array3, ArrayViewMut3, Axis, s};
 use num_complex::Complex64;
@@ -296,12 +296,6 @@ impl Tabulator<'_> {
             }
         }
     }
-}
-
-/// Elements that change sign in the mirror image: those that couple I, Q with U, V.
-fn mirror_sign(element: usize) -> f64 {
-    let (row, column) = (element / 4, element % 4);
-    if (row < 2) == (column < 2) { 1.0 } else { -1.0 }
 }
 
 /// θ rows written together: as many as one line of the processor's cache holds of a column.

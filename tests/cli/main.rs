@@ -11,3 +11,4 @@ mod hostile_input;
 mod medium_cli;
 mod rays_contract;
 mod series_bad_input;
+mod tmatrix_contract;

@@ -22,15 +22,15 @@ const TOLERANCE: f64 = 0.01;
 const FACTOR: f64 = 1.3;
 
 /// One row of the table, brought into the program's conventions.
-struct Row {
-    x: f64,
+pub(super) struct Row {
+    pub x: f64,
     /// Horizontal over vertical axis.
-    flatness: f64,
-    sun_elevation: f64,
-    plane: String,
+    pub flatness: f64,
+    pub sun_elevation: f64,
+    pub plane: String,
     scattering_angle: f64,
-    direction: (f64, f64),
-    amplitude: AmplitudeMatrix,
+    pub direction: (f64, f64),
+    pub amplitude: AmplitudeMatrix,
 }
 
 /// Unit vectors along the radius, θ and φ of spherical coordinates.
@@ -76,7 +76,7 @@ struct Converted {
     amplitude: AmplitudeMatrix,
 }
 
-fn rows() -> Vec<Row> {
+pub(super) fn rows() -> Vec<Row> {
     let text = include_str!("../data/tmatrix_spheroid_m1333.csv");
     let row = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();

@@ -22,4 +22,5 @@ mod series_debye_reference;
 mod series_means;
 mod series_mie_reference;
 mod stress;
+mod tmatrix;
 mod trace_physics;

@@ -3,6 +3,7 @@
 //! Axes of scenes (`FROM:TO:COUNT` or a list) are [`gonio::scene::Grid`]s.
 
 use crate::cli::failure::{Failure, Result};
+use gonio::medium::wavelength_of_ghz;
 
 /// Shares of a step by which rounding may miss the last value: 380:780:0.1 shall hold 780.
 const ROUNDING: (f64, f64) = (1e-12, 1e-9);
@@ -52,6 +53,51 @@ pub fn scattering_angles(text: &str) -> Result<Vec<f64>, String> {
         *angle = angle.clamp(0.0, 180.0);
     }
     Ok(angles)
+}
+
+/// Frequencies in GHz as wavelengths: a comma list of values and FROM:TO:STEP ranges.
+pub fn frequencies(text: &str) -> Result<Wavelengths, String> {
+    let ghz = wavelengths(text).map_err(|error| error.replace("nanometres", "GHz"))?;
+    Ok(Wavelengths(ghz.0.into_iter().map(|ghz| 1e9 * wavelength_of_ghz(ghz)).collect()))
+}
+
+/// Most values of a list.
+const MOST_VALUES: f64 = 1e5;
+
+/// Positive numbers: a comma list of values and FROM:TO:COUNT ranges, evenly spaced.
+pub fn positive_range(flag: &str, text: &str) -> Result<Vec<f64>> {
+    let wrong = |word: &str| {
+        let accepted = "a comma list of numbers above 0 and FROM:TO:COUNT ranges is accepted";
+        Failure::usage(format!("{flag} {word:?}: {accepted}"))
+    };
+    let mut all = Vec::new();
+    for word in text.split(',') {
+        match numbers(word).map_err(|_| wrong(word))?[..] {
+            [value] if value > 0.0 => all.push(value),
+            [from, to, count]
+                if from > 0.0
+                    && to > 0.0
+                    && (2.0..=MOST_VALUES).contains(&count)
+                    && count.fract() == 0.0 =>
+            {
+                let step = (to - from) / (count - 1.0);
+                all.extend(values(from, step, count - 1.0));
+            }
+            _ => return Err(wrong(word)),
+        }
+    }
+    Ok(all)
+}
+
+/// So many positive numbers, separated by commas.
+pub fn positive_list<const N: usize>(flag: &str, text: &str) -> Result<[f64; N]> {
+    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    let found: Option<Vec<f64>> = text.split(',').map(number).collect();
+    found.and_then(|list| list.try_into().ok()).ok_or_else(|| {
+        Failure::usage(format!(
+            "{flag} {text:?}: {N} numbers above 0, separated by commas, are accepted"
+        ))
+    })
 }
 
 /// Wavelengths in nanometres, in the order given.

@@ -8,6 +8,7 @@ pub mod info;
 pub mod lee;
 pub mod material;
 pub mod plan;
+pub mod radar;
 pub mod rays;
 pub mod render;
 pub mod scatter;

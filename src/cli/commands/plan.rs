@@ -58,7 +58,10 @@ pub fn run(args: PlanArgs) -> Result<()> {
         println!("{report}");
         return Ok(());
     }
-    println!("engine: {engine}, orders {:?}", plan.orders);
+    match plan.orders.as_slice() {
+        [] => println!("engine: {engine}, all orders at once"),
+        orders => println!("engine: {engine}, orders {orders:?}"),
+    }
     println!(
         "samples: {} wavelengths × {} scattering angles × {} azimuths ({} computed)",
         scene.wavelengths.len(),
@@ -173,8 +176,7 @@ fn try_slab(
         let slab = simulate::slab(&probe, plan, wavelength)?;
         Ok((watch.seconds(), slab))
     };
-    let series = matches!(plan.engine, Engine::LorenzMie | Engine::Debye);
-    if series || computed.len() <= TRIED[1] {
+    if plan.engine.is_exact() && plan.engine != Engine::TMatrix || computed.len() <= TRIED[1] {
         let (seconds, slab) = time(scene.phi.clone())?;
         return Ok((seconds, seconds, slab));
     }

@@ -1,4 +1,5 @@
-//! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie or Debye terms.
+//! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie, Debye terms or the
+//! T-matrix.
 
 use crate::cli::args::particle::{
     Index, ShapeFlags, ShapeKind, parse_index, parse_orders, raindrop_model, water_index,
@@ -8,6 +9,7 @@ use crate::cli::failure::{Failure, Result};
 use clap::{Args, ValueEnum};
 use gonio::farfield::ErrorEstimate;
 use gonio::math::digits::to_digits;
+use gonio::medium::wavelength_of_ghz;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{DOUBTFUL_PHASE_SHIFT, check_rays, phase_shift};
 use gonio::scatter::{
@@ -23,6 +25,8 @@ enum MethodName {
     Rays,
     Mie,
     Debye,
+    /// Exact for bodies of revolution
+    Tmatrix,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -51,6 +55,9 @@ pub struct ScatterArgs {
     /// Wavelength in vacuum, nanometres
     #[arg(long, allow_hyphen_values = true)]
     wavelength_nm: Option<f64>,
+    /// Frequency in place of the wavelength
+    #[arg(long, value_name = "GHZ", allow_hyphen_values = true, conflicts_with = "wavelength_nm")]
+    frequency_ghz: Option<f64>,
     /// Size parameter 2πa/λ of the sphere of equal volume
     #[arg(long, allow_hyphen_values = true)]
     size_parameter: Option<f64>,
@@ -69,14 +76,14 @@ pub struct ScatterArgs {
     /// Scattering angles in degrees: a comma list of values and from:to:step ranges
     #[arg(long)]
     theta: String,
-    /// A comma list of orders, "diffraction", or "auto"; not for Lorenz–Mie, which has all of them
+    /// A comma list of orders, "diffraction", or "auto"; not for Lorenz–Mie and the T-matrix, which have all
     #[arg(long, default_value = "auto")]
     orders: String,
     /// airy: uniform formulas at every bow (default); gaussian: rays whose intensities a filter smooths
     /// near bows (Sadeghi et al. 2012; phases are those of the rays); none: rays alone
     #[arg(long, value_enum)]
     diffraction: Option<DiffractionName>,
-    /// Relative error asked of rays and of the number of Debye terms
+    /// Relative error asked of rays, of the number of Debye terms and of a T-matrix
     #[arg(long, default_value_t = 0.01)]
     tolerance: f64,
     /// Raindrop model (default: beard-chuang-1987)
@@ -112,6 +119,7 @@ pub fn run(args: ScatterArgs) -> Result<()> {
             scatter::debye(&job.request, &job.terms)?
         }
         MethodName::Rays => rays(&args, &job)?,
+        MethodName::Tmatrix => scatter::t_matrix(&job.request, &shape(&args, &job)?)?,
     };
     let seconds = start.elapsed().as_secs_f64();
     note(&job, &seen);
@@ -140,7 +148,9 @@ fn positive(name: &str, value: Option<f64>) -> Result<Option<f64>> {
 fn size(args: &ScatterArgs) -> Result<Size> {
     let diameter = positive("diameter-mm", args.diameter_mm)?;
     let radius = positive("radius-um", args.radius_um)?.or(diameter.map(|d| 500.0 * d));
-    let wavelength = positive("wavelength-nm", args.wavelength_nm)?.map(|nm| nm * 1e-9);
+    let wavelength = positive("wavelength-nm", args.wavelength_nm)?
+        .map(|nm| nm * 1e-9)
+        .or(positive("frequency-ghz", args.frequency_ghz)?.map(wavelength_of_ghz));
     let parameter = positive("size-parameter", args.size_parameter)?;
     Size::of(radius.map(|um| um * 1e-6), wavelength, parameter).map_err(|conflict| match conflict {
         SizeConflict::Disagree { radius, wavelength, parameter, implied } => usage(format!(
@@ -164,6 +174,10 @@ fn check_flags(args: &ScatterArgs) -> Result<()> {
         (
             args.method == MethodName::Mie && args.orders != "auto",
             "--orders with --method mie: Lorenz–Mie has all orders at once; debye and rays take a list",
+        ),
+        (
+            args.method == MethodName::Tmatrix && args.orders != "auto",
+            "--orders with --method tmatrix: the T-matrix has all orders at once; debye and rays take a list",
         ),
         (
             series && args.diffraction.is_some(),
@@ -230,7 +244,9 @@ fn sphere_only(args: &ScatterArgs) -> Result<()> {
     if round {
         return Ok(());
     }
-    Err(usage("--method mie and debye serve spheres only: use --method rays for this shape"))
+    Err(usage(
+        "--method mie and debye serve spheres only: use --method rays or tmatrix for this shape",
+    ))
 }
 
 fn shape(args: &ScatterArgs, job: &Job) -> Result<Shape> {
@@ -336,6 +352,7 @@ fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds: f64) -> Va
             MethodName::Rays => "rays",
             MethodName::Mie => "mie",
             MethodName::Debye => "debye",
+            MethodName::Tmatrix => "tmatrix",
         },
         "size_parameter": job.request.size_parameter,
         "index": [job.request.index.re, job.request.index.im],

@@ -37,6 +37,12 @@ pub struct Thresholds {
     /// at 120–150° for a tolerance of 1 %).
     pub left_out_per_tolerance: f64,
 
+    /// Seconds of one core that `auto` spends on the T-matrix of one wavelength in place of rays.
+    pub most_t_matrix_seconds: f64,
+    /// Strain (`series::tmatrix::Expectation`) up to which `auto` tries a T-matrix: beyond, none was found
+    /// to converge.
+    pub most_t_matrix_strain: f64,
+
     /// Size parameter below which transmitted orders of deformed particles are sums over partial waves:
     /// from here on planes are quicker, and as good (errors of both meet at 600).
     pub partial_waves_below: f64,
@@ -132,6 +138,8 @@ impl Thresholds {
         highest_order: 24,
         least_last_order: 3,
         left_out_per_tolerance: 0.035,
+        most_t_matrix_seconds: 15.0,
+        most_t_matrix_strain: 9.0,
         partial_waves_below: 600.0,
         first_high_order: 4,
         hopeless_disorder: 0.068,

@@ -104,7 +104,9 @@ impl NamedSpec {
                 Some(kg_m3) => Density { kg_m3, source: "given with the medium".into() },
                 None => liquid_water(celsius),
             }),
-            "water-daimon" => Some(liquid_water(celsius)),
+            "water-daimon" | "water-liebe-1991" | "water-turner-2016" => {
+                Some(liquid_water(celsius))
+            }
             "sea-water" => Some(sea_water(celsius, self.salinity_g_kg.unwrap_or(35.0))),
             other => {
                 let water = WATERS.iter().find(|(name, _)| *name == other);

@@ -16,6 +16,7 @@ use crate::medium::shipped::catalogue;
 use crate::medium::solution::{Dye, Solution};
 use crate::medium::spec::{MediumSpec, NamedSpec};
 use crate::medium::water::daimon::Daimon;
+use crate::medium::water::microwave::MicrowaveWater;
 use num_complex::Complex64;
 use std::path::Path;
 use std::sync::Arc;
@@ -60,6 +61,11 @@ impl NamedSpec {
         let name = library::canonical(&self.name)?;
         self.refuse_foreign_conditions(&name)?;
         let temperature = self.temperature_c.unwrap_or(20.0) + 273.15;
+        if let Some(model) = MicrowaveWater::by_name(&name) {
+            let medium = Medium::MicrowaveWater { model, temperature };
+            medium.check_conditions()?;
+            return Ok(medium);
+        }
         let medium = match name.as_str() {
             "water" => match self.density_kg_m3 {
                 Some(density) => Medium::WaterOfDensity { temperature, density },
@@ -88,7 +94,8 @@ impl NamedSpec {
 
     /// Refuses a condition that the medium does not depend on, rather than ignore it.
     fn refuse_foreign_conditions(&self, name: &str) -> Result<(), MediumError> {
-        let water = ["water", "sea-water", "water-daimon"].contains(&name);
+        let water = ["water", "sea-water", "water-daimon"].contains(&name)
+            || MicrowaveWater::by_name(name).is_some();
         let foreign = [
             ("temperature_c", self.temperature_c, water),
             ("density_kg_m3", self.density_kg_m3, name == "water"),

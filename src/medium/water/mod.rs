@@ -6,6 +6,7 @@
 
 mod absorption;
 pub(super) mod daimon;
+pub(super) mod microwave;
 pub(super) mod sea;
 
 use crate::medium::error::{MediumError, check_range, invalid};
@@ -21,7 +22,8 @@ const TEMPERATURES: (f64, f64) = (261.15, 773.15);
 /// Source of the data, for the record.
 pub(in crate::medium) const SOURCE: &str = "n: IAPWS R9-97 (Harvey, Gallagher & Levelt Sengers, J. Phys. \
     Chem. Ref. Data 27, 761, 1998), density: IAPWS SR6-08; k: Pope & Fry, Appl. Opt. 36, 8710 \
-    (1997) from 380 to 700 nm, Segelstein (1981) below 350 and above 720 nm, joined smoothly";
+    (1997) from 380 to 700 nm, Segelstein (1981) below 350 and above 720 nm, joined smoothly; below 1 THz: \
+    Liebe, Hufford & Manabe (1991)";
 
 /// Index of liquid water at 1 atm; wavelength in metres, temperature in kelvin.
 pub(in crate::medium) fn index(

@@ -1,7 +1,7 @@
 //! What `gonio material` is told.
 
 use super::transform::TransformArgs;
-use crate::cli::args::ranges::{Wavelengths, wavelengths};
+use crate::cli::args::ranges::{Wavelengths, frequencies, wavelengths};
 use clap::Args;
 use gonio::medium::{Abbe, AbbeLines};
 use std::path::PathBuf;
@@ -21,6 +21,10 @@ pub struct MaterialArgs {
     #[arg(long, value_name = "NM", value_parser = wavelengths, requires = "name",
           conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     pub(super) wavelength_nm: Option<Wavelengths>,
+    /// Frequencies in place of wavelengths: as those
+    #[arg(long, value_name = "GHZ", value_parser = frequencies, requires = "name",
+          conflicts_with_all = ["wavelength_nm", "list", "from_abbe", "kramers_kronig"])]
+    pub(super) frequency_ghz: Option<Wavelengths>,
     /// Temperature of water (default 20)
     #[arg(long, value_name = "C", allow_negative_numbers = true, requires = "name",
           conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]

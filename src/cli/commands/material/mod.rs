@@ -22,7 +22,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Runs the command.
-pub fn run(args: MaterialArgs) -> Result<()> {
+pub fn run(mut args: MaterialArgs) -> Result<()> {
+    args.wavelength_nm = args.wavelength_nm.or(args.frequency_ghz.take());
     if args.list {
         let entries = list()?;
         return emit(&args, listing::text(&entries), listing::json(&entries));

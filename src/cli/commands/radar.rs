@@ -1,0 +1,400 @@
+//! `gonio radar`: what a radar measures of rain, or of single drops, by their T-matrices.
+
+use crate::cli::args::particle::{Index, parse_index};
+use crate::cli::args::ranges::{positive_list, positive_range};
+use crate::cli::failure::{Failure, Result};
+use crate::cli::show::plot;
+use clap::{Args, ValueEnum};
+use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
+
+use gonio::radar::{AxisRatioLaw, BANDS, Beam, DropShape, DropSpectrum, RadarQuantities, Rain};
+use gonio::scene::Named;
+use gonio::shape::RaindropModel;
+use num_complex::Complex64;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RadarShape {
+    Raindrop,
+    Spheroid,
+    Sphere,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WaterModel {
+    #[value(name = "liebe-1991")]
+    Liebe,
+    #[value(name = "turner-2016")]
+    Turner,
+}
+
+/// What a radar measures of rain: reflectivities, phases, attenuations
+///
+/// One row per frequency and temperature, and per diameter where diameters are given (one drop of each per m³
+/// unless --number-per-m3 says otherwise).
+#[derive(Args)]
+#[command(
+    after_help = "Examples: gonio radar --band X --marshall-palmer-mm-h 5 --canting-deg 7 --json
+gonio radar --band S,C,X,Ku,Ka,W --temperature-c 0,10,20 --diameter-mm 0.1:6:100 -o lookup.csv"
+)]
+pub struct RadarArgs {
+    /// Bands S (2.8 GHz), C (5.6), X (9.4), Ku (13.6), Ka (35.5), W (94), separated by commas
+    #[arg(long, value_name = "LIST")]
+    band: Option<String>,
+    /// Frequencies in place of bands: values and FROM:TO:COUNT ranges, separated by commas
+    #[arg(long, value_name = "GHZ", conflicts_with = "band")]
+    frequency_ghz: Option<String>,
+    /// Wavelengths in place of bands
+    #[arg(long, value_name = "MM", conflicts_with_all = ["band", "frequency_ghz"])]
+    wavelength_mm: Option<String>,
+    /// Temperatures of water, separated by commas
+    #[arg(long, value_name = "C", default_value = "10", allow_hyphen_values = true)]
+    temperature_c: String,
+    /// Formula of the permittivity of water
+    #[arg(long, value_enum, default_value = "liebe-1991")]
+    water: WaterModel,
+    /// Index n+k in place of water
+    #[arg(long, value_parser = parse_index, allow_hyphen_values = true, conflicts_with_all = ["temperature_c", "water"])]
+    index: Option<Index>,
+    /// Diameters of equal volume: values and FROM:TO:COUNT ranges, separated by commas; each by itself
+    #[arg(long, value_name = "MM")]
+    diameter_mm: Option<String>,
+    /// Number of drops of each diameter
+    #[arg(long, value_name = "N", default_value_t = 1.0, allow_negative_numbers = true)]
+    number_per_m3: f64,
+    /// Drops of Marshall & Palmer at this rain rate
+    #[arg(
+        long,
+        value_name = "MM_H",
+        allow_negative_numbers = true,
+        conflicts_with = "diameter_mm"
+    )]
+    marshall_palmer_mm_h: Option<f64>,
+    /// Drops N0 exp(-SLOPE D): N0 in 1/(m³ mm), the slope in 1/mm
+    #[arg(long, value_name = "N0,SLOPE", conflicts_with_all = ["diameter_mm", "marshall_palmer_mm_h"])]
+    exponential: Option<String>,
+    /// Drops of a normalised gamma spectrum: N_w in 1/(m³ mm), median volume diameter in mm, shape μ
+    #[arg(long, value_name = "NW,D0,MU", allow_hyphen_values = true,
+        conflicts_with_all = ["diameter_mm", "marshall_palmer_mm_h", "exponential"])]
+    normalised_gamma: Option<String>,
+    /// Smallest diameter of a spectrum
+    #[arg(long, value_name = "MM", default_value_t = 0.05, allow_negative_numbers = true)]
+    from_diameter_mm: f64,
+    /// Largest diameter of a spectrum (default: that of the shape's model, or 8)
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    to_diameter_mm: Option<f64>,
+    /// Real shapes, spheroids or spheres
+    #[arg(long, value_enum, default_value = "raindrop")]
+    shape: RadarShape,
+    /// Raindrop model (default: beard-chuang-1987)
+    #[arg(long)]
+    model: Option<String>,
+    /// Vertical over horizontal axis of spheroids: a number, or a law of the diameter: thurai-2007 (default),
+    /// beard-chuang-1987, brandes-2002, pruppacher-beard-1970
+    #[arg(long, value_name = "RATIO_OR_LAW")]
+    axis_ratio: Option<String>,
+    /// Standard deviation of the axes' tilt
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    canting_deg: f64,
+    /// Beam above the horizon
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    elevation_deg: f64,
+    /// |K|² that defines reflectivities
+    #[arg(long, value_name = "K2", default_value_t = 0.93, allow_negative_numbers = true)]
+    k_squared: f64,
+    /// Relative error asked of amplitudes
+    #[arg(long, default_value_t = 1e-3, allow_negative_numbers = true)]
+    tolerance: f64,
+    /// Write to a file
+    #[arg(short, long, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+    /// JSON in place of CSV
+    #[arg(long)]
+    json: bool,
+}
+
+/// One row: what it is of, and what is seen.
+struct Row {
+    frequency_ghz: f64,
+    temperature_c: Option<f64>,
+    index: Complex64,
+    diameter_mm: Option<f64>,
+    seen: RadarQuantities,
+}
+
+/// What drops there are.
+enum Drops {
+    Single(Vec<f64>),
+    Spectrum(DropSpectrum, (f64, f64)),
+}
+
+pub fn run(args: RadarArgs) -> Result<()> {
+    let wavelengths = wavelengths(&args)?;
+    let waters = waters(&args)?;
+    let shape = shape(&args)?;
+    let drops = drops(&args, shape)?;
+    check(&args)?;
+    let start = Instant::now();
+    let mut rows = Vec::new();
+    for &wavelength in &wavelengths {
+        for &water in &waters {
+            let (index, temperature_c) = match water {
+                Water::Index(index) => (index, None),
+                Water::Temperature(celsius) => {
+                    let model = match args.water {
+                        WaterModel::Liebe => MicrowaveWater::Liebe1991,
+                        WaterModel::Turner => MicrowaveWater::Turner2016,
+                    };
+                    (model.index(wavelength, celsius + 273.15)?, Some(celsius))
+                }
+            };
+            let rain = Rain {
+                shape,
+                index,
+                canting: args.canting_deg.to_radians(),
+                tolerance: args.tolerance,
+            };
+            let beam = Beam {
+                wavelength,
+                elevation: args.elevation_deg.to_radians(),
+                dielectric_factor: args.k_squared,
+            };
+            let row = |diameter_mm, seen| Row {
+                frequency_ghz: wavelength_of_ghz(1.0) / wavelength,
+                temperature_c,
+                index,
+                diameter_mm,
+                seen,
+            };
+            match &drops {
+                Drops::Single(diameters) => {
+                    for &d in diameters {
+                        let seen = rain.measure(&beam, &[(d * 1e-3, args.number_per_m3)])?;
+                        rows.push(row(Some(d), seen));
+                    }
+                }
+                Drops::Spectrum(spectrum, range) => {
+                    rows.push(row(None, rain.measure_spectrum(&beam, spectrum, *range)?));
+                }
+            }
+        }
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let text = if args.json { as_json(&args, &rows, seconds) } else { as_csv(&rows) };
+    match &args.output {
+        Some(path) => plot::write_whole(path, text.as_bytes()),
+        None => {
+            print!("{text}");
+            Ok(())
+        }
+    }
+}
+
+fn usage(message: impl Into<String>) -> Failure {
+    Failure::usage(message)
+}
+
+/// Wavelengths, metres.
+fn wavelengths(args: &RadarArgs) -> Result<Vec<f64>> {
+    if let Some(list) = &args.wavelength_mm {
+        return Ok(positive_range("--wavelength-mm", list)?.iter().map(|mm| mm * 1e-3).collect());
+    }
+    if let Some(list) = &args.frequency_ghz {
+        return Ok(positive_range("--frequency-ghz", list)?
+            .iter()
+            .copied()
+            .map(wavelength_of_ghz)
+            .collect());
+    }
+    let Some(list) = &args.band else {
+        return Err(usage(
+            "the wavelength is missing: give --band, --frequency-ghz or --wavelength-mm",
+        ));
+    };
+    let band = |word: &str| {
+        let known = BANDS.iter().find(|(name, _)| name.eq_ignore_ascii_case(word.trim()));
+        known.map(|(_, ghz)| wavelength_of_ghz(*ghz)).ok_or_else(|| {
+            let names: Vec<&str> = BANDS.iter().map(|(name, _)| *name).collect();
+            usage(format!("--band {word}: {} are accepted", names.join(", ")))
+        })
+    };
+    list.split(',').map(band).collect()
+}
+
+#[derive(Clone, Copy)]
+enum Water {
+    Index(Complex64),
+    Temperature(f64),
+}
+
+fn waters(args: &RadarArgs) -> Result<Vec<Water>> {
+    if let Some(Index(index)) = args.index {
+        return Ok(vec![Water::Index(index)]);
+    }
+    let celsius = |word: &str| {
+        let value = word.trim().parse::<f64>().ok().filter(|value| value.is_finite());
+        value.map(Water::Temperature).ok_or_else(|| {
+            usage(format!("--temperature-c {word:?}: a comma list of temperatures is accepted"))
+        })
+    };
+    args.temperature_c.split(',').map(celsius).collect()
+}
+
+fn shape(args: &RadarArgs) -> Result<DropShape> {
+    match (&args.axis_ratio, &args.model) {
+        (Some(_), _) if args.shape != RadarShape::Spheroid => {
+            return Err(usage("--axis-ratio: only --shape spheroid has an axis ratio"));
+        }
+        (_, Some(_)) if args.shape != RadarShape::Raindrop => {
+            return Err(usage("--model: only --shape raindrop has a shape model"));
+        }
+        _ => {}
+    }
+    Ok(match args.shape {
+        RadarShape::Sphere => DropShape::Sphere,
+        RadarShape::Raindrop => {
+            let name = args.model.as_deref().unwrap_or("beard-chuang-1987");
+            let model = RaindropModel::from_name(name);
+            DropShape::Raindrop(model.map_err(|error| usage(format!("--model: {error}")))?)
+        }
+        RadarShape::Spheroid => {
+            let word = args.axis_ratio.as_deref().unwrap_or("thurai-2007");
+            let law = AxisRatioLaw::NAMES.iter().find(|(name, _)| *name == word);
+            match (word.parse::<f64>(), law) {
+                (Ok(ratio), _) => {
+                    let known = DropShape::Spheroid(ratio);
+                    known.at(1e-3).map_err(|error| usage(format!("--axis-ratio: {error}")))?;
+                    known
+                }
+                (_, Some((_, law))) => DropShape::SpheroidBy(*law),
+                _ => {
+                    let names: Vec<&str> =
+                        AxisRatioLaw::NAMES.iter().map(|(name, _)| *name).collect();
+                    let names = names.join(", ");
+                    return Err(usage(format!(
+                        "--axis-ratio {word}: a number, {names} are accepted"
+                    )));
+                }
+            }
+        }
+    })
+}
+
+fn drops(args: &RadarArgs, shape: DropShape) -> Result<Drops> {
+    if let Some(list) = &args.diameter_mm {
+        return Ok(Drops::Single(positive_range("--diameter-mm", list)?));
+    }
+    let spectrum = if let Some(rate) = args.marshall_palmer_mm_h {
+        if !(1e-3..=1e3).contains(&rate) {
+            let message = format!("--marshall-palmer-mm-h {rate}: 1e-3 to 1000 mm/h is accepted");
+            return Err(usage(message));
+        }
+        DropSpectrum::marshall_palmer(rate)
+    } else if let Some(list) = &args.exponential {
+        let [intercept, slope] = positive_list("--exponential", list)?;
+        DropSpectrum::Exponential { intercept: intercept * 1e3, slope: slope * 1e3 }
+    } else if let Some(list) = &args.normalised_gamma {
+        let (first, mu) = list.rsplit_once(',').unwrap_or((list, ""));
+        let [intercept, median] = positive_list("--normalised-gamma", first)?;
+        let shape = mu.trim().parse::<f64>().ok().filter(|mu| (-3.0..=30.0).contains(mu));
+        let shape = shape.ok_or_else(|| {
+            usage(format!(
+                "--normalised-gamma {list}: N_w, D0 in mm and a shape μ of -3 to 30 are accepted"
+            ))
+        })?;
+        let median_volume_diameter = median * 1e-3;
+        DropSpectrum::NormalisedGamma { intercept: intercept * 1e3, median_volume_diameter, shape }
+    } else {
+        return Err(usage(
+            "the drops are missing: give --diameter-mm, --marshall-palmer-mm-h, --exponential or \
+             --normalised-gamma",
+        ));
+    };
+    let (from, to) = (args.from_diameter_mm, args.to_diameter_mm.unwrap_or(shape.largest() * 1e3));
+    if !(from >= 0.0 && to > from && to <= 20.0) {
+        return Err(usage(format!(
+            "--from-diameter-mm {from} --to-diameter-mm {to}: two ascending diameters of 0 to 20 mm are accepted"
+        )));
+    }
+    Ok(Drops::Spectrum(spectrum, (from * 1e-3, to * 1e-3)))
+}
+
+fn check(args: &RadarArgs) -> Result<()> {
+    for (name, value, (low, high)) in [
+        ("canting-deg", args.canting_deg, (0.0, 90.0)),
+        ("elevation-deg", args.elevation_deg, (-90.0, 90.0)),
+        ("k-squared", args.k_squared, (1e-3, 1.0)),
+        ("tolerance", args.tolerance, (1e-8, 0.5)),
+        ("number-per-m3", args.number_per_m3, (1e-12, 1e12)),
+    ] {
+        if !(low..=high).contains(&value) {
+            return Err(usage(format!("--{name} {value}: {low} to {high} is accepted")));
+        }
+    }
+    Ok(())
+}
+
+/// Names and values of a row's quantities; dBZ beside the reflectivities.
+fn columns(q: &RadarQuantities) -> [(&'static str, f64); 10] {
+    [
+        ("z_h_mm6_m3", q.z_h),
+        ("z_v_mm6_m3", q.z_v),
+        ("z_h_dbz", 10.0 * q.z_h.log10()),
+        ("z_dr_db", q.z_dr_db),
+        ("ldr_db", q.ldr_db),
+        ("rho_hv", q.rho_hv),
+        ("delta_hv_deg", q.delta_hv_deg),
+        ("k_dp_deg_km", q.k_dp_deg_km),
+        ("a_h_db_km", q.a_h_db_km),
+        ("a_dp_db_km", q.a_dp_db_km),
+    ]
+}
+
+fn as_csv(rows: &[Row]) -> String {
+    let mut text = String::from("frequency_ghz,temperature_c,n,k,diameter_mm");
+    if let Some(row) = rows.first() {
+        columns(&row.seen).iter().for_each(|(name, _)| {
+            let _ = write!(text, ",{name}");
+        });
+    }
+    text.push('\n');
+    let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value}"));
+    for row in rows {
+        let Row { frequency_ghz, temperature_c, index, diameter_mm, seen } = row;
+        let (celsius, diameter) = (number(*temperature_c), number(*diameter_mm));
+        let _ =
+            write!(text, "{frequency_ghz:.6},{celsius},{:.6},{:.6},{diameter}", index.re, index.im);
+        for (_, value) in columns(seen) {
+            let _ = write!(text, ",{value:.6e}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn as_json(args: &RadarArgs, rows: &[Row], seconds: f64) -> String {
+    let row = |row: &Row| {
+        let mut entry = json!({
+            "frequency_ghz": row.frequency_ghz,
+            "temperature_c": row.temperature_c,
+            "index": [row.index.re, row.index.im],
+            "diameter_mm": row.diameter_mm,
+        });
+        for (name, value) in columns(&row.seen) {
+            // no depolarisation has no decibels
+            entry[name] = if value.is_finite() { json!(value) } else { Value::Null };
+        }
+        entry
+    };
+    let report = json!({
+        "method": "tmatrix",
+        "elevation_deg": args.elevation_deg,
+        "canting_deg": args.canting_deg,
+        "rows": rows.iter().map(row).collect::<Vec<Value>>(),
+        "seconds": seconds,
+    });
+    format!("{report}\n")
+}

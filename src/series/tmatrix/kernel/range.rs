@@ -1,0 +1,104 @@
+//! Where T-matrices are the method: what is aimed at, what is allowed, what it costs.
+//!
+//! All thresholds of this room stand here.
+
+use num_complex::Complex64;
+
+/// How T was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// Waterman's.
+    NullField,
+    /// A fit on the surface.
+    LeastSquares,
+}
+
+/// Smallest size parameter: below, products of the radial functions leave the range of f64.
+pub(in crate::series::tmatrix) const LEAST_SIZE: f64 = 1e-6;
+/// Asymmetry aimed at: below it rounding rules, and convergence is so fast that it costs a few
+/// degrees more than a rough answer.
+pub(in crate::series::tmatrix) const AIM: f64 = 1e-10;
+/// Degrees beyond which one T takes a minute and half a gigabyte.
+pub(in crate::series::tmatrix) const MOST_DEGREES: usize = 280;
+/// Degrees of a fit on the surface: beyond, its factors lose more than further waves gain.
+pub(in crate::series::tmatrix) const MOST_FITTED: usize = 140;
+/// Steps without progress after which more degrees are no help.
+pub(in crate::series::tmatrix) const STALLED: usize = 3;
+/// Share of the tolerance that the error of the order tried may take.
+pub(in crate::series::tmatrix) const MARGIN: f64 = 0.1;
+/// Relative error that rounding leaves.
+const ROUNDING: f64 = 1e-13;
+/// Error of amplitudes per asymmetry of T, whose even part is kept. Measured over spheroids of 0.5 to 2 and raindrops of
+/// x = 0.5 to 15, indices 1.05 to 3 + 2i: 0.1 to 3.2.
+const PER_ASYMMETRY: f64 = 1.0;
+/// Relative error of values stored as `f32`.
+pub(in crate::series::tmatrix) const STORED: f64 = 3e-8;
+
+/// Relative error of amplitudes, root mean square over directions, of a T with this asymmetry.
+pub(in crate::series::tmatrix) fn error_of(asymmetry: f64) -> f64 {
+    PER_ASYMMETRY * asymmetry.max(ROUNDING)
+}
+
+/// The asymmetry to aim at for a relative error asked of amplitudes.
+pub(in crate::series::tmatrix) fn aim(tolerance: f64) -> f64 {
+    (MARGIN * tolerance / PER_ASYMMETRY).max(AIM)
+}
+
+/// Degrees by which a deformed body exceeds those of the sphere about it, per unit of spread.
+const MORE_BY_SPREAD: f64 = 1.0;
+/// Seconds of one core for all orders of 100 degrees: null field of a body without a horizontal plane of
+/// symmetry, for a real index; and least squares of any.
+const NULL_FIELD_SECONDS: f64 = 0.25;
+const LEAST_SQUARES_SECONDS: f64 = 6.0;
+/// Share of it that such a plane leaves, and what a complex index takes.
+const MIRRORED: f64 = 0.3;
+const ABSORBING: f64 = 1.6;
+
+/// Degrees of spherical waves that a sphere of this size parameter needs (Wiscombe 1980).
+pub(in crate::series::tmatrix) fn degrees(size_parameter: f64) -> usize {
+    (size_parameter + 4.05 * size_parameter.cbrt() + 2.0).ceil() as usize
+}
+
+/// What a T-matrix would cost, before anything is tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expectation {
+    /// Highest degree of spherical waves.
+    pub degrees: usize,
+    /// Seconds of one core for T.
+    pub cpu_seconds: f64,
+    /// `x (far - near)(far/near - 1)` with the smallest and largest distance of the surface from the waves'
+    /// origin: the further waves reach beyond where they are proper, the more digits are lost. Measured: 8 for
+    /// axis ratio 0.8 at x = 150 (asymmetry 1e-5), 7 for drops of 2 mm at x = 100 (1e-4) and spheroids of 0.7
+    /// at 50 (1e-7); 14 for 0.7 at 100 (6e-2) and 19 for 0.5 at 30 do not converge.
+    pub strain: f64,
+}
+
+/// What to expect of a body whose distances from the best origin go from `near` to `far` (radii of
+/// the sphere of equal volume).
+pub(in crate::series::tmatrix) fn of_spread(
+    size_parameter: f64,
+    (near, far): (f64, f64),
+    mirror: bool,
+) -> Expectation {
+    let round = degrees(size_parameter * far) as f64;
+    let strain = size_parameter * (far - near) * (far / near - 1.0);
+    let degrees = (round * (1.0 + MORE_BY_SPREAD * (far / near - 1.0))).ceil() as usize;
+    let cpu_seconds = seconds(Solver::NullField, degrees, mirror, Complex64::ONE);
+    Expectation { degrees, cpu_seconds, strain }
+}
+
+/// Seconds of one core that all orders take.
+pub(in crate::series::tmatrix) fn seconds(
+    solver: Solver,
+    degrees: usize,
+    mirror: bool,
+    index: Complex64,
+) -> f64 {
+    let share = if mirror { MIRRORED } else { 1.0 };
+    let of_hundred = match solver {
+        Solver::NullField if index.im > 0.0 => NULL_FIELD_SECONDS * ABSORBING,
+        Solver::NullField => NULL_FIELD_SECONDS,
+        Solver::LeastSquares => LEAST_SQUARES_SECONDS,
+    };
+    share * of_hundred * (degrees as f64 / 100.0).powi(4)
+}
