@@ -2,7 +2,7 @@
 
 /// `F` and its first derivatives with respect to `q = x·x` and `ζ = x·down`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Slope<T> {
+pub(crate) struct Slope<T> {
     /// `F`.
     pub f: T,
     /// `∂F/∂q`
