@@ -116,10 +116,10 @@ mod tests {
             let found = law.axis_ratio(millimetres * 1e-3);
             assert!((found - known).abs() < 1e-3, "{law:?} {millimetres} mm: {found} {known}");
         }
-        // continuous where the pieces meet
+        // where the pieces meet they do so as printed: within 0.006 of each other
         for d in AxisRatioLaw::Thurai2007.kinks() {
             let step = |d: f64| AxisRatioLaw::Thurai2007.axis_ratio(d);
-            assert!((step(d * (1.0 + 1e-9)) - step(d * (1.0 - 1e-9))).abs() < 5e-3);
+            assert!((step(d * (1.0 + 1e-9)) - step(d * (1.0 - 1e-9))).abs() < 6e-3);
         }
     }
 

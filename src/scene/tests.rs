@@ -144,7 +144,7 @@ fn values_are_refused_with_line_key_value_and_what_is_accepted() {
         ("count = 33", "count = 1", &["line 9", "differ"]),
         ("count = 33", "count = -3", &["line 9: light.wavelengths_nm"]),
         ("count = 33", "count = 1e3", &["line 9: light.wavelengths_nm"]),
-        ("from = 380", "from = -380", &["line 9", "-380 is not accepted", "1 to 1e6 nm"]),
+        ("from = 380", "from = -380", &["line 9", "-380 is not accepted", "1 to 1e9 nm"]),
         ("from = 380", "from = 900", &["line 9", "`from` must be less than `to`"]),
         (
             "to = 180",

@@ -5,6 +5,7 @@ use assert_cmd::Command;
 use gonio::scene::{Scene, SceneFile, SceneText};
 use gonio::simulate;
 use serde_json::Value;
+use std::f64::consts::PI;
 
 fn gonio(line: &str) -> Command {
     let mut command = Command::cargo_bin("gonio").unwrap();
@@ -141,7 +142,19 @@ fn a_radar_sees_a_drop() {
     let number = |name: &str| row[name].as_f64().unwrap();
     assert!((number("z_dr_db") - 2.60).abs() < 5e-3, "{row}");
     assert!((number("k_dp_deg_km") - 0.127).abs() < 5e-4, "{row}");
-    assert!((number("z_h_mm6_m3") / 4096.0 - 1.0).abs() < 1.0 && row["ldr_db"].is_null(), "{row}");
+    // the sphere of equal volume by Lorenz–Mie stands between the two polarisations
+    let sphere = json(
+        "scatter --method mie --radius-um 2000 --frequency-ghz 10 --index 8.0568+2.0306 --theta 180 --json",
+    );
+    let [wavelength, radius] = [29.979_245_8_f64, 2.0_f64];
+    let area = sphere["q_back"].as_f64().unwrap() * PI * radius * radius;
+    let z_of_sphere = wavelength.powi(4) / PI.powi(5) / 0.93 * area;
+    let [z_h, z_v] = ["z_h_mm6_m3", "z_v_mm6_m3"].map(number);
+    assert!(z_v < z_of_sphere && z_of_sphere < z_h, "{z_of_sphere}: {row}");
+    assert!(
+        ((z_h * z_v).sqrt() / z_of_sphere - 1.0).abs() < 0.1 && row["ldr_db"].is_null(),
+        "{row}"
+    );
     let single = json(
         "scatter --method tmatrix --shape raindrop --radius-um 2000 --frequency-ghz 10 --index 8.0568+2.0306 \
          --theta 180 --azimuth-deg 90 --json",

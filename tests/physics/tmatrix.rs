@@ -149,7 +149,7 @@ fn spheroids_of_another_program() {
     let mut curves = 0;
     for body in rows.chunk_by(|a, b| (a.x, a.flatness) == (b.x, b.flatness)) {
         let shape = Shape::spheroid(1.0 / body[0].flatness, 0.0).unwrap();
-        let t = TMatrix::new(&shape, body[0].x, Complex64::new(1.333, 1e-12), 1e-6).unwrap();
+        let t = TMatrix::new(&shape, body[0].x, Complex64::new(1.333, 1e-12), 1e-8).unwrap();
         for curve in
             body.chunk_by(|a, b| (a.sun_elevation, &a.plane) == (b.sun_elevation, &b.plane))
         {
@@ -171,7 +171,8 @@ fn spheroids_of_another_program() {
 }
 
 /// An absorbing spheroid, backwards, against the value that pytmatrix prints in its test: lengths in units in
-/// which the radius is 2 and the wavelength 6.5.
+/// which the radius is 2 and the wavelength 6.5. That program ends its series at a criterion of 1e-3, and is good
+/// to some 1e-5.
 #[test]
 fn absorbing_spheroid_of_pytmatrix() {
     let shape = Shape::spheroid(0.6, 0.0).unwrap();
@@ -183,7 +184,7 @@ fn absorbing_spheroid_of_pytmatrix() {
     let horizontal = Complex64::new(-8.38637654e-2, 3.10409912e-1);
     for (found, known) in [(s.s1 * length, vertical), (s.s2 * length, horizontal)] {
         let off = (found - known).norm().min((found + known).norm());
-        assert!(off < 1e-7 * known.norm(), "{found} {known}: {off:e}");
+        assert!(off < 5e-5 * known.norm(), "{found} {known}: {off:e}");
     }
     assert!(s.s3.norm().max(s.s4.norm()) < 1e-12);
 }

@@ -95,7 +95,7 @@ fn liebe(ghz: f64, kelvin: f64) -> Complex64 {
     let theta = 1.0 - 300.0 / kelvin;
     let rest = 77.66 - 103.3 * theta;
     let middle = 0.0671 * rest;
-    let high = 3.52;
+    let high = 3.52 + 7.52 * theta;
     let first = 20.2 + 146.4 * theta + 316.0 * theta * theta;
     let second = 39.8 * first;
     let debye = |relaxation: f64| Complex64::new(1.0, -ghz / relaxation).inv();
