@@ -4,7 +4,8 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/tools/setup.sh"
 "$root/tools/python.sh"
-(cd "$root" && cargo build --release)
+# with the examples, so that what the checks have built is taken as it is
+(cd "$root" && cargo build --release --bins --examples)
 target=${CARGO_TARGET_DIR:-$root/target}
 export PATH="$target/release:$PATH" GONIO_PYTHON="${GONIO_PYTHON:-$root/.tools/venv/bin/python}"
 folder=$(mktemp -d)
