@@ -163,16 +163,17 @@ fn spheroids_of_another_program() {
             let error = (wrong / scale).sqrt();
             let (x, flatness) = (curve[0].x, curve[0].flatness);
             println!("x = {x}, flatness {flatness}, {}: {error:.1e}", curve[0].plane);
-            assert!(error < if x < 30.0 { 1e-5 } else { 2e-3 }, "{x} {flatness}: {error:e}");
+            // what that program's own end of its series leaves: the same for any tolerance here
+            assert!(error < if x < 30.0 { 2e-5 } else { 2e-3 }, "{x} {flatness}: {error:e}");
             curves += 1;
         }
     }
     assert!(curves >= 20, "{curves}");
 }
 
-/// An absorbing spheroid, backwards, against the value that pytmatrix prints in its test: lengths in units in
-/// which the radius is 2 and the wavelength 6.5. That program ends its series at a criterion of 1e-3, and is good
-/// to some 1e-5.
+/// An absorbing spheroid, backwards, of pytmatrix's test, in units in which the radius is 2 and the wavelength 6.5.
+/// That program ends its series at a criterion of 1e-3 and prints 0.0389338755 - 0.243467777i, 4e-5 off; its port
+/// rustmatrix 2.2.0 ends at 1e-6 (`ddelt`) with these digits.
 #[test]
 fn absorbing_spheroid_of_pytmatrix() {
     let shape = Shape::spheroid(0.6, 0.0).unwrap();
@@ -180,11 +181,11 @@ fn absorbing_spheroid_of_pytmatrix() {
     let t = TMatrix::new(&shape, 2.0 * k, Complex64::new(1.5, 0.5), 1e-9).unwrap();
     let s = Scattered::new(&t, 0.0).directions(&[(PI, FRAC_PI_2)])[0];
     let length = Complex64::I / k;
-    let vertical = Complex64::new(3.89338755e-2, -2.43467777e-1);
-    let horizontal = Complex64::new(-8.38637654e-2, 3.10409912e-1);
+    let vertical = Complex64::new(3.892782559e-2, -2.4347419599e-1);
+    let horizontal = Complex64::new(-8.386389691e-2, 3.1040932679e-1);
     for (found, known) in [(s.s1 * length, vertical), (s.s2 * length, horizontal)] {
         let off = (found - known).norm().min((found + known).norm());
-        assert!(off < 5e-5 * known.norm(), "{found} {known}: {off:e}");
+        assert!(off < 1e-6 * known.norm(), "{found} {known}: {off:e}");
     }
     assert!(s.s3.norm().max(s.s4.norm()) < 1e-12);
 }

@@ -122,7 +122,7 @@ pub fn run(args: ScatterArgs) -> Result<()> {
         MethodName::Tmatrix => scatter::t_matrix(&job.request, &shape(&args, &job)?)?,
     };
     let seconds = start.elapsed().as_secs_f64();
-    note(&job, &seen);
+    note(&args, &job, &seen);
     if args.json {
         println!("{}", to_json(&args, &job, &seen, seconds));
     } else {
@@ -294,7 +294,7 @@ fn rays(args: &ScatterArgs, job: &Job) -> Result<Scattering> {
 }
 
 /// Says on stderr where a result is worth less than was asked.
-fn note(job: &Job, seen: &Scattering) {
+fn note(args: &ScatterArgs, job: &Job, seen: &Scattering) {
     if let Some(left) = seen.remainder.filter(|left| left.not_converged) {
         eprintln!(
             "note: the sum of Debye terms up to order {} has not converged: what is left out is {:.1e} of \
@@ -304,7 +304,7 @@ fn note(job: &Job, seen: &Scattering) {
     }
     let Some(worth) = seen.worth else { return };
     let phase_shift = phase_shift(job.request.index, job.request.size_parameter);
-    if phase_shift < DOUBTFUL_PHASE_SHIFT {
+    if args.method == MethodName::Rays && phase_shift < DOUBTFUL_PHASE_SHIFT {
         eprintln!(
             "note: the phase shift through the particle, 2x|n - 1| = {phase_shift:.1}, is small for rays \
              (below {DOUBTFUL_PHASE_SHIFT}): intensities from 10 to 170 degrees are {:.0} % off, \
