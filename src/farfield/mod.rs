@@ -5,7 +5,7 @@
 //! ([`deflection`]), cuts them at their landmarks into the segments of a [`branch`] with uniform formulas
 //! at folds, near the rim ([`impact_integral`]) and at the edge of the shadow ([`forward`]), interpolates
 //! them over [`azimuth`] and adds them up over the samples. Orders whose caustics are too disordered for
-//! that are sums of [`gaussian_beams`], and those of small particles of [`partial_waves`]. The other, that
+//! that are sums on a complex wavefront ([`complex_wavefront`]), and those of small particles of [`partial_waves`]. The other, that
 //! of Sadeghi et al. 2012, is [`patches`]: sheets of rays cut into triangles on the sphere of directions,
 //! the interference of all that contain a direction, and diffraction by a Gaussian filter. [`mod@reference`]
 //! is a brute-force sum that needs no asymptotics; [`sphere_check`] says what the method is worth. [`FarField`] is what the rest of the house uses.
@@ -22,8 +22,6 @@
 //!     orders: &[2],
 //!     tolerance: 0.01,
 //!     diffraction: false,
-//!     checked: false,
-//!     azimuths: &[0.0],
 //! };
 //! let field = FarField::meridians(&tracer, &settings);
 //! let at = |degrees: f64| field.scatter(&[(degrees.to_radians(), 0.0)], false)[0].s11();
@@ -34,14 +32,13 @@ pub mod assignment;
 pub mod azimuth;
 pub mod branch;
 mod column;
-mod cross_check;
+pub mod complex_wavefront;
 pub mod deflection;
 pub mod direction;
 mod error_estimate;
 mod fallback;
 mod far_field;
 pub mod forward;
-pub mod gaussian_beams;
 pub mod impact_integral;
 pub mod partial_waves;
 pub mod patches;

@@ -118,6 +118,15 @@ impl Shape {
         self.is_sphere() || self.down.x.abs() < 1e-12
     }
 
+    /// True when the body is known to look the same from below.
+    pub fn mirror_symmetry(&self) -> bool {
+        match &self.body {
+            Body::Sphere | Body::Spheroid(_) => true,
+            Body::Raindrop(drop) => drop.is_sphere(),
+            Body::Own(_) => false,
+        }
+    }
+
     /// True when the body is a sphere, by whatever kind it is described.
     pub fn is_sphere(&self) -> bool {
         match &self.body {

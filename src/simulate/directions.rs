@@ -54,7 +54,7 @@ pub fn scatter_with_sections(
     let sections = CrossSections::new(plan, &far_field, index, absorbed);
     sections.validate()?;
     let treatment = Treatment { interference: true, filter };
-    let worth = worth(&far_field, plan, index, size_parameter, treatment)?;
+    let worth = worth(&far_field, plan, index, size_parameter, treatment, &[])?;
     Ok(Seen { amplitudes: finite(amplitudes, directions)?, sections, worth })
 }
 
@@ -87,7 +87,6 @@ fn scatter_far_field<'a>(
     size_parameter: f64,
     directions: &[(f64, f64)],
 ) -> (Vec<AmplitudeMatrix>, FarField<'a>) {
-    let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
-    let far_field = far_field(plan, index, size_parameter, &azimuths, plan.forward_diffraction);
+    let far_field = far_field(plan, index, size_parameter, plan.forward_diffraction);
     (far_field.scatter(directions, plan.forward_diffraction), far_field)
 }

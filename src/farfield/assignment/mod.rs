@@ -3,9 +3,13 @@
 //! Decided first by the scene alone: where few wavelengths fit into a deformed particle, all caustics of
 //! an order lie in one wave zone, and it is a sum over partial waves ([`crate::farfield::partial_waves`]);
 //! else scattering planes serve ([`crate::farfield::azimuth`]). What turns out on trial is an [`Outcome`], a
-//! value, and [`Assignment::after`] makes the next assignment of it: orders whose planes do not match, or
-//! differ grossly from a second method, go to beams or patches. [`crate::farfield::FarField`] obeys. All
-//! numbers by which this goes are in the [`Thresholds`].
+//! value, and [`Assignment::after`] makes the next assignment of it: orders whose planes do not match are
+//! sums on a complex wavefront ([`crate::farfield::complex_wavefront`]), reflection and the smallest particles
+//! go to patches. How far rays of an order stray from a sphere's grows with the order and with the deformation
+//! of the outline; from some of it on the order is such a sum at once, which asks nothing of its rays, and over
+//! a range before that it is mixed of both, so that nothing jumps where one takes over from the other.
+//! [`crate::farfield::FarField`] obeys. All numbers by which this goes are in the [`Thresholds`]; none of it
+//! depends on the directions asked for.
 //!
 //! ```
 //! use gonio::farfield::assignment::{Assignment, Method, Outcome, Thresholds};
@@ -41,6 +45,8 @@ pub struct Assigned {
     pub reasons: Vec<Reason>,
     /// Share of the amplitude by which the wave may be off.
     pub expected_error: f64,
+    /// Share of the amplitude that is a sum on a complex wavefront: 1 where that is the method.
+    pub share_of_sum: f64,
     /// What stands for single rays where; known once planes are traced.
     pub formulas: Vec<FormulaRange>,
 }
@@ -54,15 +60,6 @@ pub struct PlanesOutcome {
     pub found: Option<(Spacing, Vec<FormulaRange>)>,
 }
 
-/// How far an order's planes are from a second method: the largest share of the amplitude in a band.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
-    /// Number of chords.
-    pub order: u32,
-    /// Largest difference over the amplitude.
-    pub share: f64,
-}
-
 /// What turned out on trial.
 #[derive(Clone, Copy, Debug)]
 pub enum Outcome<'o> {
@@ -70,8 +67,6 @@ pub enum Outcome<'o> {
     RadialLines(&'o [u32]),
     /// Planes of orders, found or not.
     Planes(&'o [PlanesOutcome]),
-    /// Planes against beams.
-    CrossCheck(&'o [Difference]),
 }
 
 /// Who computes what, in the order in which orders are asked for.
@@ -88,6 +83,8 @@ struct Judge {
     size_parameter: f64,
     tolerance: f64,
     rotational: bool,
+    /// Whether the body looks the same from below.
+    mirror: bool,
     /// Whether small sizes are sums over partial waves.
     deformed: bool,
     /// Caustic disorder per order.
@@ -120,6 +117,7 @@ impl Assignment {
             size_parameter,
             tolerance,
             rotational: tracer.shape().rotational_symmetry(),
+            mirror: tracer.shape().mirror_symmetry(),
             deformed,
             disorder: caustic_disorder(tracer, 1),
         };
@@ -160,13 +158,6 @@ impl Assignment {
                     None => entry,
                 }
             }
-            Outcome::CrossCheck(differences) => {
-                let of_it = differences.iter().find(|d| d.order == entry.order);
-                match of_it.filter(|_| entry.method == Method::Planes) {
-                    Some(difference) => judge.after_check(entry, difference.share),
-                    None => entry,
-                }
-            }
         };
         Self { entries: entries.into_iter().map(next).collect(), judge }
     }
@@ -193,16 +184,10 @@ impl Assignment {
         entry.map_or(0.0, |entry| entry.expected_error)
     }
 
-    /// Orders by planes that are to be compared with beams.
-    pub fn cross_checked(&self) -> Vec<u32> {
-        let judge = &self.judge;
-        if judge.skips_check().is_some() {
-            return Vec::new();
-        }
-        let [first, last] = judge.by.cross_checked_orders;
-        let strays = |order: &u32| judge.disorder_of(*order) > judge.by.cross_checked_disorder;
-        let orders = self.orders_of(Method::Planes).into_iter();
-        orders.filter(|order| (first..=last).contains(order)).filter(strays).collect()
+    /// Orders that are sums on a complex wavefront, all or in part, with that share of their amplitude.
+    pub fn shares_of_sum(&self) -> Vec<(u32, f64)> {
+        let shares = self.entries.iter().map(|entry| (entry.order, entry.share_of_sum));
+        shares.filter(|(_, share)| *share > 0.0).collect()
     }
 
     /// What is left out, and why.
@@ -210,9 +195,6 @@ impl Assignment {
         let judge = &self.judge;
         let of = |method| !self.orders_of(method).is_empty();
         let mut skipped = Vec::new();
-        if of(Method::Planes) {
-            skipped.extend(judge.skips_check());
-        }
         if judge.deformed && !of(Method::PartialWaves) && of(Method::Planes) {
             let limit = judge.by.partial_waves_below;
             skipped.push(format!("partial waves: the size parameter is not below {limit}"));
@@ -236,6 +218,7 @@ impl Assignment {
             reason: words(&entry.reasons),
             expected_error: Some(entry.expected_error),
             share_of_light: Some(light.get(entry.order as usize).copied().unwrap_or(0.0)),
+            share_scattered: None,
             formulas: entry.formulas.iter().map(formula).collect(),
         };
         self.entries.iter().map(part).collect()
@@ -246,7 +229,16 @@ impl Judge {
     fn first(&self, order: u32) -> Assigned {
         let limit = self.by.partial_waves_below;
         if order == 0 || !self.deformed || self.size_parameter >= limit {
-            return self.planes(order, Vec::new());
+            let share = self.share_of_sum(order);
+            if share >= 1.0 {
+                let [_, limit] = self.by.wavefront_disorder(order, self.mirror);
+                let reason = Reason::Disordered(self.disorder_of(order), limit);
+                return self.complex_wavefront(order, vec![reason]);
+            }
+            let mixed = (share > 0.0).then_some(Reason::Mixed(share));
+            let mut entry = self.planes(order, mixed.into_iter().collect());
+            entry.share_of_sum = share;
+            return entry;
         }
         let expected_error = self.by.error_of_partial_waves / self.size_parameter;
         let reasons = vec![Reason::Small(limit)];
@@ -272,40 +264,42 @@ impl Judge {
             entry.formulas.clone_from(formulas);
             return entry;
         }
-        let (order, limit) = (entry.order, self.by.hopeless_disorder);
-        let disorder = self.disorder_of(order);
-        let hopeless = self.by.is_hopeless(order, disorder);
-        let reason = if hopeless { Reason::Disordered(disorder, limit) } else { Reason::Unmatched };
-        self.without_planes(&entry, reason)
+        self.without_planes(&entry)
     }
 
-    fn after_check(&self, mut entry: Assigned, difference: f64) -> Assigned {
-        let limit = self.by.gross_difference;
-        if difference > limit {
-            return self.without_planes(&entry, Reason::Differs(difference, limit));
-        }
-        entry.reasons.push(Reason::Agrees(difference));
-        entry
-    }
-
-    /// Beams, or patches for particles so small, or tolerances so coarse, that those do better. Order 0
-    /// stays with patches: its rays are strongest where launch points end, at the rim, which beams would
-    /// show as an edge that shines.
-    fn without_planes(&self, entry: &Assigned, why: Reason) -> Assigned {
+    /// A sum on a complex wavefront, or patches for particles so small that it is too coarse. Reflection
+    /// stays with patches: its rays are strongest where launch points end, at the rim, which a sum over them
+    /// would show as an edge that shines.
+    fn without_planes(&self, entry: &Assigned) -> Assigned {
         let order = entry.order;
         let lost = entry.reasons.iter().filter(|reason| **reason == Reason::RadialLinesLost);
-        let mut reasons: Vec<Reason> = lost.copied().chain([why]).collect();
-        let (size, tolerance) = (self.by.beams_from, self.by.beams_tolerance);
+        let mut reasons: Vec<Reason> = lost.copied().chain([Reason::Unmatched]).collect();
         if order == 0 {
             reasons.push(Reason::Reflection);
             return self.patches(order, reasons);
         }
-        if !self.has_beams() {
-            reasons.push(Reason::CoarseEnough(size, tolerance));
+        if self.size_parameter < self.by.wavefront_from {
+            reasons.push(Reason::Small(self.by.wavefront_from));
             return self.patches(order, reasons);
         }
-        reasons.push(Reason::Fine(size, tolerance));
-        assigned(order, Method::Beams, reasons, self.by.error_of_beams * f64::from(order))
+        self.complex_wavefront(order, reasons)
+    }
+
+    fn complex_wavefront(&self, order: u32, reasons: Vec<Reason>) -> Assigned {
+        let by_order = self.by.error_of_wavefront;
+        let expected_error = by_order[(order as usize).min(by_order.len() - 1)];
+        let entry = assigned(order, Method::ComplexWavefront, reasons, expected_error);
+        Assigned { share_of_sum: 1.0, ..entry }
+    }
+
+    /// Share of a sum on a complex wavefront in the wave of an order; the rest is that of scattering planes.
+    fn share_of_sum(&self, order: u32) -> f64 {
+        if order == 0 || self.rotational || self.size_parameter < self.by.wavefront_from {
+            return 0.0;
+        }
+        let [from, to] = self.by.wavefront_disorder(order, self.mirror);
+        let t = ((self.disorder_of(order) - from) / (to - from)).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
     }
 
     fn patches(&self, order: u32, reasons: Vec<Reason>) -> Assigned {
@@ -314,33 +308,13 @@ impl Judge {
         assigned(order, Method::Patches, reasons, expected_error)
     }
 
-    fn has_beams(&self) -> bool {
-        self.size_parameter >= self.by.beams_from && self.tolerance <= self.by.beams_tolerance
-    }
-
-    /// Why no order is compared with beams, if none is.
-    fn skips_check(&self) -> Option<String> {
-        let [_, last] = self.by.cross_checked_orders;
-        let (size, disorder) = (self.by.cross_checked_size, self.by.cross_checked_disorder);
-        let why = if self.rotational || self.disorder_of(last) <= disorder {
-            format!("rays up to order {last} stray no farther than {disorder} from a sphere's")
-        } else if self.size_parameter < size {
-            format!("the size parameter is below {size}")
-        } else if !self.has_beams() {
-            format!("the tolerance is above {}", self.by.beams_tolerance)
-        } else {
-            return None;
-        };
-        Some(format!("a cross-check by Gaussian beams: {why}"))
-    }
-
     fn disorder_of(&self, order: u32) -> f64 {
         f64::from(order) * self.disorder
     }
 }
 
 fn assigned(order: u32, method: Method, reasons: Vec<Reason>, expected_error: f64) -> Assigned {
-    Assigned { order, method, reasons, expected_error, formulas: Vec::new() }
+    Assigned { order, method, reasons, expected_error, share_of_sum: 0.0, formulas: Vec::new() }
 }
 
 /// How far rays of an order stray from those of a sphere: order times deformation of the outline.
@@ -391,30 +365,36 @@ mod tests {
         let found = found.after(Outcome::Planes(&lost(&[0, 1])));
         assert_eq!(found.orders_of(Method::Patches), [0, 1]);
         assert_eq!([0, 1, 2].map(|order| found.error_of(order)), [0.07, 0.3, 2.0 / 200.0]);
-        let large = spheroid(0.9, 2000.0, 0.01, by).after(Outcome::Planes(&lost(&[0, 5])));
+        // reflection and, for so few wavelengths, every order stay with patches
+        let large = spheroid(0.95, 2000.0, 0.01, by).after(Outcome::Planes(&lost(&[0, 2])));
         assert_eq!(large.orders_of(Method::Patches), [0]);
-        assert_eq!(large.orders_of(Method::Beams), [5]);
-        let coarse = spheroid(0.9, 2000.0, 0.1, by).after(Outcome::Planes(&lost(&[5])));
-        assert_eq!(coarse.orders_of(Method::Patches), [5]);
-        assert!(coarse.entries()[3].reasons.contains(&Reason::CoarseEnough(1000.0, 0.03)));
+        assert_eq!(large.orders_of(Method::ComplexWavefront), [2, 5]);
+        assert!(large.entries()[2].reasons.contains(&Reason::Unmatched));
+        assert!(matches!(large.entries()[3].reasons[..], [Reason::Disordered(..)]));
     }
 
-    /// The comparison's outcome is a value; what follows from it is decided here.
+    fn shares(radius_mm: f64, elevation: f64) -> Vec<f64> {
+        let model = crate::shape::RaindropModel::BeardChuang1987;
+        let shape = Shape::raindrop(1e-3 * radius_mm, model, elevation.to_radians()).unwrap();
+        let tracer = Tracer::new(&shape, Complex64::new(1.33, 0.0), 5000.0, 5);
+        let orders = [0, 1, 2, 3, 4, 5];
+        let found = Assignment::new(&tracer, &orders, 5000.0, 0.01, &Thresholds::MEASURED);
+        found.entries().iter().map(|entry| entry.share_of_sum).collect()
+    }
+
+    /// The sum takes over little by little, with order and deformation.
     #[test]
-    fn gross_differences_go_to_beams() {
-        let found = spheroid(0.9, 10_000.0, 0.01, &Thresholds::MEASURED);
-        assert_eq!(found.cross_checked(), [1, 2]);
-        let differences =
-            [Difference { order: 1, share: 0.1 }, Difference { order: 2, share: 0.7 }];
-        let after = found.after(Outcome::CrossCheck(&differences));
-        assert_eq!(after.orders_of(Method::Planes), [0, 1, 5]);
-        assert_eq!(after.orders_of(Method::Beams), [2]);
-        assert!(after.entries()[1].reasons.contains(&Reason::Agrees(0.1)));
-        let small = spheroid(0.9, 5000.0, 0.01, &Thresholds::MEASURED);
-        assert!(small.cross_checked().is_empty());
-        assert!(small.skipped()[0].contains("6000"), "{:?}", small.skipped());
-        let round = spheroid(0.999, 10_000.0, 0.01, &Thresholds::MEASURED);
-        assert!(round.cross_checked().is_empty());
+    fn shares_of_the_sum_rise_with_order_and_deformation() {
+        assert_eq!(shares(0.45, 20.0), [0.0; 6]);
+        assert_eq!(shares(2.5, 20.0), [0.0, 1.0, 1.0, 1.0, 1.0, 1.0]);
+        // seen along its axis a drop is round, however flat
+        assert_eq!(shares(2.0, 90.0), [0.0; 6]);
+        for order in 1..6 {
+            let all: Vec<f64> =
+                (40..260).map(|r| shares(0.01 * f64::from(r), 20.0)[order]).collect();
+            assert!(all.windows(2).all(|w| w[1] >= w[0]), "{order}: {all:?}");
+            assert!(all.iter().any(|share| (0.02..0.98).contains(share)), "{order}: {all:?}");
+        }
     }
 
     /// Another threshold, another method and another reason.
