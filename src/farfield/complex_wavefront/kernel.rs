@@ -12,7 +12,7 @@ use crate::optics::AmplitudeMatrix;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use num_complex::Complex64;
-use std::f64::consts::{LOG2_E, PI, TAU};
+use std::f64::consts::{LN_2, LOG2_E, PI, TAU};
 
 /// A ray of the sum, ready for columns.
 pub(super) struct Ray {
@@ -288,14 +288,14 @@ fn exp2<const FMA: bool>(x: f64) -> f64 {
     // Taylor series of 2^t on |t| ≤ ½
     const C: [f64; 9] = [
         1.0,
-        0.693_147_180_559_945_3,
+        LN_2,
         0.240_226_506_959_100_7,
         0.055_504_108_664_821_58,
         0.009_618_129_107_628_477,
         0.001_333_355_814_642_844_3,
         0.000_154_035_303_933_816_1,
         0.000_015_252_733_804_059_84,
-        0.000_001_321_548_679_014_430_9,
+        0.000_001_321_548_679_014_431,
     ];
     let mut value = C[8];
     for k in (0..8).rev() {
