@@ -167,6 +167,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         scattering: sections.scattering(),
         shadow_area: far_field.silhouette().area() + beyond,
         left_out,
+        peak_edge: plan.thresholds.peak_edge,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =

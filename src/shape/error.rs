@@ -1,12 +1,16 @@
 //! What can be wrong with a shape.
 
 use crate::fault::{Blame, Fault};
+use crate::math::digits::to_digits;
 
 /// What went wrong with a shape.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what each case and field is")]
 pub enum ShapeError {
-    #[error("radius {radius_mm} mm is outside the drop model {model} ({from_mm} to {to_mm} mm)")]
+    #[error(
+        "radius {} mm is outside the drop model {model} ({} to {} mm)",
+        to_digits(*.radius_mm, 9), to_digits(*.from_mm, 9), to_digits(*.to_mm, 9)
+    )]
     RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
     #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
     AxisRatio(f64),

@@ -32,6 +32,8 @@ pub struct Tabulator<'a> {
     pub shadow_area: f64,
     /// Share of the scattered power that is in no order of the table: what Σ P·ΔΩ lacks to 1.
     pub left_out: f64,
+    /// [`Thresholds::peak_edge`](crate::farfield::assignment::Thresholds::peak_edge).
+    pub peak_edge: f64,
 }
 
 /// The values of a slab and what was found on the way.
@@ -72,11 +74,6 @@ struct Peak<'a> {
     rows: PeakRows,
     wave: ForwardWave<'a>,
 }
-
-/// How far the share of a separated peak may be from that of the shadow's light, beside the edge effect of
-/// order `x^(-2/3)`: what the wave between diffraction and rays carries, and what samples add up to of fringes
-/// finer than they are. Ten shapes and sizes, x = 200 to 10 000, 181 to 1801 angles: up to 0.008.
-const EDGE_SHARE: f64 = 0.015;
 
 /// Columns computed together, so that what they share is read once.
 const COLUMNS_AT_ONCE: usize = 8;
@@ -258,7 +255,7 @@ impl Tabulator<'_> {
         if self.forward_peak == ForwardPeak::Separate && diffracts && covers_sphere {
             // what the rest does not hold is in the peak, as long as that is the shadow's but for its edge
             let missing = 1.0 - self.left_out - rest;
-            let edge = EDGE_SHARE + self.size_parameter.powf(-2.0 / 3.0);
+            let edge = self.peak_edge + self.size_parameter.powf(-2.0 / 3.0);
             let closed = if (missing - share).abs() < edge { missing } else { share };
             return (1.0, sum_before_peak, closed);
         }

@@ -178,3 +178,20 @@ fn a_radar_sees_a_drop() {
         assert!(code == Some(2) && message.contains(words), "{line}: {code:?} {message}");
     }
 }
+
+/// Flags of a radar that have no effect together, and a body without contrast.
+#[test]
+fn what_has_no_effect_is_refused() {
+    for (line, words) in [
+        ("radar --band X --diameter-mm 2 --from-diameter-mm 1", "cannot be used"),
+        ("radar --band X --diameter-mm 2 --to-diameter-mm 3", "cannot be used"),
+        ("radar --band X --marshall-palmer-mm-h 5 --number-per-m3 7", "its own numbers of drops"),
+        ("radar --band X --diameter-mm 2 --index 1", "scatters nothing"),
+        ("scatter --method tmatrix --size-parameter 10 --index 1 --theta 0", "scatters nothing"),
+        ("radar --band X --diameter-mm 9.1", "radius 4.55 mm is outside"),
+    ] {
+        let output = gonio(line).assert().code(2).get_output().clone();
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(text.contains(words) && output.stdout.is_empty(), "{line}: {text}");
+    }
+}

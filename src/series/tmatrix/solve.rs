@@ -110,6 +110,9 @@ struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     fn new(shape: &'a Shape, size_parameter: f64, index: Complex64) -> Result<Self, TMatrixError> {
+        if index == Complex64::from(1.0) {
+            return Err(TMatrixError::NoContrast);
+        }
         let surface = Surface::new(shape)?;
         let limits = surface.limits()?;
         Ok(Self { surface, size_parameter, index, limits })

@@ -18,6 +18,10 @@ pub enum TMatrixError {
     )]
     Size(f64),
     #[error(
+        "index = 1: a body that is as its surroundings scatters nothing; any other index is accepted"
+    )]
+    NoContrast,
+    #[error(
         "size parameter {size_parameter}: its T-matrix needs {degrees} degrees, at most {} are accepted \
          (minutes of time, gigabytes of memory); method = \"rays\" serves such particles",
         range::MOST_DEGREES
@@ -53,6 +57,7 @@ impl Blame for TMatrixError {
         match self {
             TMatrixError::NotStarShaped { .. }
             | TMatrixError::Size(_)
+            | TMatrixError::NoContrast
             | TMatrixError::TooLarge { .. } => Fault::Input,
             TMatrixError::NotConverged { .. }
             | TMatrixError::NoMean(_)

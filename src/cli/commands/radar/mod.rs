@@ -1,18 +1,17 @@
 //! `gonio radar`: what a radar measures of rain, or of single drops, by their T-matrices.
 
+mod report;
+
 use crate::cli::args::particle::{Index, parse_index};
 use crate::cli::args::ranges::{positive_list, positive_range};
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot;
 use clap::{Args, ValueEnum};
 use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
-
 use gonio::radar::{AxisRatioLaw, BANDS, Beam, DropShape, DropSpectrum, RadarQuantities, Rain};
 use gonio::scene::Named;
 use gonio::shape::RaindropModel;
 use num_complex::Complex64;
-use serde_json::{Value, json};
-use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -62,9 +61,9 @@ pub struct RadarArgs {
     /// Diameters of equal volume: values and FROM:TO:COUNT ranges, separated by commas; each by itself
     #[arg(long, value_name = "MM")]
     diameter_mm: Option<String>,
-    /// Number of drops of each diameter
-    #[arg(long, value_name = "N", default_value_t = 1.0, allow_negative_numbers = true)]
-    number_per_m3: f64,
+    /// Number of drops of each diameter (default: 1)
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    number_per_m3: Option<f64>,
     /// Drops of Marshall & Palmer at this rain rate
     #[arg(
         long,
@@ -80,11 +79,11 @@ pub struct RadarArgs {
     #[arg(long, value_name = "NW,D0,MU", allow_hyphen_values = true,
         conflicts_with_all = ["diameter_mm", "marshall_palmer_mm_h", "exponential"])]
     normalised_gamma: Option<String>,
-    /// Smallest diameter of a spectrum
-    #[arg(long, value_name = "MM", default_value_t = 0.05, allow_negative_numbers = true)]
-    from_diameter_mm: f64,
+    /// Smallest diameter of a spectrum (default: 0.05)
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, conflicts_with = "diameter_mm")]
+    from_diameter_mm: Option<f64>,
     /// Largest diameter of a spectrum (default: that of the shape's model, or 8)
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, conflicts_with = "diameter_mm")]
     to_diameter_mm: Option<f64>,
     /// Real shapes, spheroids or spheres
     #[arg(long, value_enum, default_value = "raindrop")]
@@ -137,6 +136,7 @@ pub fn run(args: RadarArgs) -> Result<()> {
     let shape = shape(&args)?;
     let drops = drops(&args, shape)?;
     check(&args)?;
+    let number_per_m3 = args.number_per_m3.unwrap_or(1.0);
     let start = Instant::now();
     let mut rows = Vec::new();
     for &wavelength in &wavelengths {
@@ -172,7 +172,7 @@ pub fn run(args: RadarArgs) -> Result<()> {
             match &drops {
                 Drops::Single(diameters) => {
                     for &d in diameters {
-                        let seen = rain.measure(&beam, &[(d * 1e-3, args.number_per_m3)])?;
+                        let seen = rain.measure(&beam, &[(d * 1e-3, number_per_m3)])?;
                         rows.push(row(Some(d), seen));
                     }
                 }
@@ -183,7 +183,8 @@ pub fn run(args: RadarArgs) -> Result<()> {
         }
     }
     let seconds = start.elapsed().as_secs_f64();
-    let text = if args.json { as_json(&args, &rows, seconds) } else { as_csv(&rows) };
+    let text =
+        if args.json { report::as_json(&args, &rows, seconds) } else { report::as_csv(&rows) };
     match &args.output {
         Some(path) => plot::write_whole(path, text.as_bytes()),
         None => {
@@ -283,6 +284,9 @@ fn shape(args: &RadarArgs) -> Result<DropShape> {
     })
 }
 
+/// Where spectra begin, diameter in mm.
+const SMALLEST_MM: f64 = 0.05;
+
 fn drops(args: &RadarArgs, shape: DropShape) -> Result<Drops> {
     if let Some(list) = &args.diameter_mm {
         return Ok(Drops::Single(positive_range("--diameter-mm", list)?));
@@ -313,7 +317,11 @@ fn drops(args: &RadarArgs, shape: DropShape) -> Result<Drops> {
              --normalised-gamma",
         ));
     };
-    let (from, to) = (args.from_diameter_mm, args.to_diameter_mm.unwrap_or(shape.largest() * 1e3));
+    if args.number_per_m3.is_some() {
+        return Err(usage("--number-per-m3 with a spectrum, which has its own numbers of drops"));
+    }
+    let from = args.from_diameter_mm.unwrap_or(SMALLEST_MM);
+    let to = args.to_diameter_mm.unwrap_or(shape.largest() * 1e3);
     if !(from >= 0.0 && to > from && to <= 20.0) {
         return Err(usage(format!(
             "--from-diameter-mm {from} --to-diameter-mm {to}: two ascending diameters of 0 to 20 mm are accepted"
@@ -328,73 +336,11 @@ fn check(args: &RadarArgs) -> Result<()> {
         ("elevation-deg", args.elevation_deg, (-90.0, 90.0)),
         ("k-squared", args.k_squared, (1e-3, 1.0)),
         ("tolerance", args.tolerance, (1e-8, 0.5)),
-        ("number-per-m3", args.number_per_m3, (1e-12, 1e12)),
+        ("number-per-m3", args.number_per_m3.unwrap_or(1.0), (1e-12, 1e12)),
     ] {
         if !(low..=high).contains(&value) {
             return Err(usage(format!("--{name} {value}: {low} to {high} is accepted")));
         }
     }
     Ok(())
-}
-
-/// Names and values of a row's quantities; dBZ beside the reflectivities.
-fn columns(q: &RadarQuantities) -> [(&'static str, f64); 10] {
-    [
-        ("z_h_mm6_m3", q.z_h),
-        ("z_v_mm6_m3", q.z_v),
-        ("z_h_dbz", 10.0 * q.z_h.log10()),
-        ("z_dr_db", q.z_dr_db),
-        ("ldr_db", q.ldr_db),
-        ("rho_hv", q.rho_hv),
-        ("delta_hv_deg", q.delta_hv_deg),
-        ("k_dp_deg_km", q.k_dp_deg_km),
-        ("a_h_db_km", q.a_h_db_km),
-        ("a_dp_db_km", q.a_dp_db_km),
-    ]
-}
-
-fn as_csv(rows: &[Row]) -> String {
-    let mut text = String::from("frequency_ghz,temperature_c,n,k,diameter_mm");
-    if let Some(row) = rows.first() {
-        columns(&row.seen).iter().for_each(|(name, _)| {
-            let _ = write!(text, ",{name}");
-        });
-    }
-    text.push('\n');
-    let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value}"));
-    for row in rows {
-        let Row { frequency_ghz, temperature_c, index, diameter_mm, seen } = row;
-        let (celsius, diameter) = (number(*temperature_c), number(*diameter_mm));
-        let _ =
-            write!(text, "{frequency_ghz:.6},{celsius},{:.6},{:.6},{diameter}", index.re, index.im);
-        for (_, value) in columns(seen) {
-            let _ = write!(text, ",{value:.6e}");
-        }
-        text.push('\n');
-    }
-    text
-}
-
-fn as_json(args: &RadarArgs, rows: &[Row], seconds: f64) -> String {
-    let row = |row: &Row| {
-        let mut entry = json!({
-            "frequency_ghz": row.frequency_ghz,
-            "temperature_c": row.temperature_c,
-            "index": [row.index.re, row.index.im],
-            "diameter_mm": row.diameter_mm,
-        });
-        for (name, value) in columns(&row.seen) {
-            // no depolarisation has no decibels
-            entry[name] = if value.is_finite() { json!(value) } else { Value::Null };
-        }
-        entry
-    };
-    let report = json!({
-        "method": "tmatrix",
-        "elevation_deg": args.elevation_deg,
-        "canting_deg": args.canting_deg,
-        "rows": rows.iter().map(row).collect::<Vec<Value>>(),
-        "seconds": seconds,
-    });
-    format!("{report}\n")
 }
