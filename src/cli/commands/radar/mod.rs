@@ -1,128 +1,20 @@
 //! `gonio radar`: what a radar measures of rain, or of single drops, by their T-matrices.
 
+mod args;
 mod report;
 
-use crate::cli::args::particle::{Index, parse_index};
+use crate::cli::args::particle::Index;
 use crate::cli::args::ranges::{positive_list, positive_range};
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot;
-use clap::{Args, ValueEnum};
+pub use args::RadarArgs;
+use args::{RadarShape, Row, WaterModel};
 use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
-use gonio::radar::{AxisRatioLaw, BANDS, Beam, DropShape, DropSpectrum, RadarQuantities, Rain};
+use gonio::radar::{AxisRatioLaw, BANDS, Beam, DropShape, DropSpectrum, Rain};
 use gonio::scene::Named;
 use gonio::shape::RaindropModel;
 use num_complex::Complex64;
-use std::path::PathBuf;
 use std::time::Instant;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum RadarShape {
-    Raindrop,
-    Spheroid,
-    Sphere,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum WaterModel {
-    #[value(name = "liebe-1991")]
-    Liebe,
-    #[value(name = "turner-2016")]
-    Turner,
-}
-
-/// What a radar measures of rain: reflectivities, phases, attenuations
-///
-/// One row per frequency and temperature, and per diameter where diameters are given (one drop of each per m³
-/// unless --number-per-m3 says otherwise).
-#[derive(Args)]
-#[command(
-    after_help = "Examples: gonio radar --band X --marshall-palmer-mm-h 5 --canting-deg 7 --json
-gonio radar --band S,C,X,Ku,Ka,W --temperature-c 0,10,20 --diameter-mm 0.1:6:100 -o lookup.csv"
-)]
-pub struct RadarArgs {
-    /// Bands S (2.8 GHz), C (5.6), X (9.4), Ku (13.6), Ka (35.5), W (94), separated by commas
-    #[arg(long, value_name = "LIST")]
-    band: Option<String>,
-    /// Frequencies in place of bands: values and FROM:TO:COUNT ranges, separated by commas
-    #[arg(long, value_name = "GHZ", conflicts_with = "band")]
-    frequency_ghz: Option<String>,
-    /// Wavelengths in place of bands
-    #[arg(long, value_name = "MM", conflicts_with_all = ["band", "frequency_ghz"])]
-    wavelength_mm: Option<String>,
-    /// Temperatures of water, separated by commas
-    #[arg(long, value_name = "C", default_value = "10", allow_hyphen_values = true)]
-    temperature_c: String,
-    /// Formula of the permittivity of water
-    #[arg(long, value_enum, default_value = "liebe-1991")]
-    water: WaterModel,
-    /// Index n+k in place of water
-    #[arg(long, value_parser = parse_index, allow_hyphen_values = true, conflicts_with_all = ["temperature_c", "water"])]
-    index: Option<Index>,
-    /// Diameters of equal volume: values and FROM:TO:COUNT ranges, separated by commas; each by itself
-    #[arg(long, value_name = "MM")]
-    diameter_mm: Option<String>,
-    /// Number of drops of each diameter (default: 1)
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
-    number_per_m3: Option<f64>,
-    /// Drops of Marshall & Palmer at this rain rate
-    #[arg(
-        long,
-        value_name = "MM_H",
-        allow_negative_numbers = true,
-        conflicts_with = "diameter_mm"
-    )]
-    marshall_palmer_mm_h: Option<f64>,
-    /// Drops N0 exp(-SLOPE D): N0 in 1/(m³ mm), the slope in 1/mm
-    #[arg(long, value_name = "N0,SLOPE", conflicts_with_all = ["diameter_mm", "marshall_palmer_mm_h"])]
-    exponential: Option<String>,
-    /// Drops of a normalised gamma spectrum: N_w in 1/(m³ mm), median volume diameter in mm, shape μ
-    #[arg(long, value_name = "NW,D0,MU", allow_hyphen_values = true,
-        conflicts_with_all = ["diameter_mm", "marshall_palmer_mm_h", "exponential"])]
-    normalised_gamma: Option<String>,
-    /// Smallest diameter of a spectrum (default: 0.05)
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, conflicts_with = "diameter_mm")]
-    from_diameter_mm: Option<f64>,
-    /// Largest diameter of a spectrum (default: that of the shape's model, or 8)
-    #[arg(long, value_name = "MM", allow_negative_numbers = true, conflicts_with = "diameter_mm")]
-    to_diameter_mm: Option<f64>,
-    /// Real shapes, spheroids or spheres
-    #[arg(long, value_enum, default_value = "raindrop")]
-    shape: RadarShape,
-    /// Raindrop model (default: beard-chuang-1987)
-    #[arg(long)]
-    model: Option<String>,
-    /// Vertical over horizontal axis of spheroids: a number, or a law of the diameter: thurai-2007 (default),
-    /// beard-chuang-1987, brandes-2002, pruppacher-beard-1970
-    #[arg(long, value_name = "RATIO_OR_LAW")]
-    axis_ratio: Option<String>,
-    /// Standard deviation of the axes' tilt
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
-    canting_deg: f64,
-    /// Beam above the horizon
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
-    elevation_deg: f64,
-    /// |K|² that defines reflectivities
-    #[arg(long, value_name = "K2", default_value_t = 0.93, allow_negative_numbers = true)]
-    k_squared: f64,
-    /// Relative error asked of amplitudes
-    #[arg(long, default_value_t = 1e-3, allow_negative_numbers = true)]
-    tolerance: f64,
-    /// Write to a file
-    #[arg(short, long, value_name = "FILE.csv")]
-    output: Option<PathBuf>,
-    /// JSON in place of CSV
-    #[arg(long)]
-    json: bool,
-}
-
-/// One row: what it is of, and what is seen.
-struct Row {
-    frequency_ghz: f64,
-    temperature_c: Option<f64>,
-    index: Complex64,
-    diameter_mm: Option<f64>,
-    seen: RadarQuantities,
-}
 
 /// What drops there are.
 enum Drops {

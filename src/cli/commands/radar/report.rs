@@ -1,6 +1,6 @@
 //! Rows of what a radar sees, as CSV and as JSON.
 
-use super::{RadarArgs, Row};
+use super::args::{RadarArgs, Row};
 use gonio::radar::RadarQuantities;
 use serde_json::{Value, json};
 use std::fmt::Write as _;

@@ -1,108 +1,22 @@
 //! `gonio scatter`: the amplitude matrix in chosen directions, by rays, Lorenz–Mie, Debye terms or the
 //! T-matrix.
 
+mod args;
 mod report;
 
 use crate::cli::args::particle::{
-    Index, ShapeFlags, ShapeKind, parse_index, parse_orders, raindrop_model, water_index,
+    Index, ShapeFlags, ShapeKind, parse_orders, raindrop_model, water_index,
 };
 use crate::cli::args::ranges::scattering_angles;
 use crate::cli::failure::{Failure, Result};
-use clap::{Args, ValueEnum};
+pub use args::ScatterArgs;
+use args::{DiffractionName, Job, MethodName};
 use gonio::math::digits::to_digits;
 use gonio::medium::wavelength_of_ghz;
 use gonio::plan::check_rays;
-use gonio::scatter::{
-    self, DebyeTerms, RayDiffraction, RayRequest, Request, Scattering, Size, SizeConflict,
-};
+use gonio::scatter::{self, RayDiffraction, RayRequest, Request, Scattering, Size, SizeConflict};
 use gonio::shape::Shape;
 use std::time::Instant;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodName {
-    Rays,
-    Mie,
-    Debye,
-    /// Exact for bodies of revolution
-    Tmatrix,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum DiffractionName {
-    None,
-    Gaussian,
-    Airy,
-}
-
-/// Amplitude matrix in chosen directions, by any method
-#[derive(Args)]
-#[command(after_help = "Example: gonio scatter --method rays --shape raindrop --radius-um 500 \
---wavelength-nm 650 --sun-elevation-deg 20 --theta 130:150:0.1 --json")]
-pub struct ScatterArgs {
-    #[arg(long, value_enum)]
-    method: MethodName,
-    #[arg(long, value_enum, default_value = "sphere")]
-    shape: ShapeKind,
-    /// Radius of the sphere of equal volume, micrometres. Of radius, wavelength and size parameter
-    /// two say the third; given all three, they must agree
-    #[arg(long, allow_hyphen_values = true)]
-    radius_um: Option<f64>,
-    /// Diameter of the sphere of equal volume, millimetres
-    #[arg(long, conflicts_with = "radius_um")]
-    diameter_mm: Option<f64>,
-    /// Wavelength in vacuum, nanometres
-    #[arg(long, allow_hyphen_values = true)]
-    wavelength_nm: Option<f64>,
-    /// Frequency in place of the wavelength
-    #[arg(long, value_name = "GHZ", allow_hyphen_values = true, conflicts_with = "wavelength_nm")]
-    frequency_ghz: Option<f64>,
-    /// Size parameter 2πa/λ of the sphere of equal volume
-    #[arg(long, allow_hyphen_values = true)]
-    size_parameter: Option<f64>,
-    /// Index n or n+k; without it, water at the wavelength
-    #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
-    index: Option<Index>,
-    /// Vertical over horizontal diameter of a spheroid
-    #[arg(long, allow_hyphen_values = true)]
-    axis_ratio: Option<f64>,
-    /// Sun above the horizon; of no effect on a sphere
-    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
-    sun_elevation_deg: f64,
-    /// Azimuth of the light about the sun's rays; of no effect on a sphere
-    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
-    azimuth_deg: f64,
-    /// Scattering angles in degrees: a comma list of values and from:to:step ranges
-    #[arg(long)]
-    theta: String,
-    /// A comma list of orders, "diffraction", or "auto"; not for Lorenz–Mie and the T-matrix, which have all
-    #[arg(long, default_value = "auto")]
-    orders: String,
-    /// airy: uniform formulas at every bow (default); gaussian: rays whose intensities a filter smooths
-    /// near bows (Sadeghi et al. 2012; phases are those of the rays); none: rays alone
-    #[arg(long, value_enum)]
-    diffraction: Option<DiffractionName>,
-    /// Relative error asked of rays, of the number of Debye terms and of a T-matrix
-    #[arg(long, default_value_t = 0.01)]
-    tolerance: f64,
-    /// Raindrop model (default: beard-chuang-1987)
-    #[arg(long)]
-    model: Option<String>,
-    /// Rays across the silhouette for the patches of `--diffraction none` and `gaussian`
-    #[arg(long)]
-    rays_across: Option<usize>,
-    /// JSON on standard output
-    #[arg(long)]
-    json: bool,
-}
-
-/// What was asked for, checked.
-struct Job {
-    request: Request,
-    /// Metres, where it is known.
-    radius: Option<f64>,
-    theta_deg: Vec<f64>,
-    terms: DebyeTerms,
-}
 
 pub fn run(args: ScatterArgs) -> Result<()> {
     let job = job(&args)?;

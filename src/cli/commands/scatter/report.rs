@@ -1,6 +1,6 @@
 //! Amplitudes and what they are worth, as a table, as JSON, and in notes on stderr.
 
-use super::{Job, MethodName, ScatterArgs};
+use super::args::{Job, MethodName, ScatterArgs};
 use gonio::farfield::ErrorEstimate;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{DOUBTFUL_PHASE_SHIFT, phase_shift};
