@@ -2,7 +2,8 @@
 //!
 //! An order by itself, without diffraction, scatters the light that its rays carry out of the particle; of
 //! high orders, whose rays leave near the rim, it is more by what tunnels there, which the Debye term of the
-//! sphere of equal volume tells. What an order has too much or too little is wrong whatever made it.
+//! sphere of equal volume tells. What an order has too much or too little is wrong whatever made it. Round bodies
+//! are compared with exact terms ([`crate::farfield`]), and small ones scatter no more like rays.
 
 use super::error::SimulateError;
 use crate::farfield::FarField;
@@ -47,14 +48,16 @@ pub(super) fn order_powers(
     index: Complex64,
     budget: &EnergyBudget,
 ) -> Result<Vec<OrderPower>, SeriesError> {
-    if plan.engine != Engine::Meridians {
+    let round = plan.symmetry == Symmetry::Rotational;
+    let small = far_field.size_parameter() < plan.thresholds.wavefront_from;
+    if plan.engine != Engine::Meridians || round || small {
         return Ok(Vec::new());
     }
     let least = plan.thresholds.least_checked_power;
     let rays = |order: u32| budget.left_by_order.get(order as usize).copied().unwrap_or(0.0);
     let orders: Vec<u32> =
         plan.orders.iter().copied().filter(|&order| order > 0 && rays(order) > least).collect();
-    let found = scattered_by_order(far_field, &orders, plan.symmetry == Symmetry::Rotational);
+    let found = scattered_by_order(far_field, &orders);
     if found.is_empty() {
         return Ok(Vec::new());
     }

@@ -36,19 +36,12 @@ pub fn scattered_power(far_field: &FarField, rotational: bool) -> f64 {
 /// bright as dark.
 const ORDER_ANGLES: usize = 1440;
 const ORDER_AZIMUTHS: usize = 8;
-/// Angles where nothing depends on azimuth, and one azimuth must do.
-const ORDER_ANGLES_ALONE: usize = 7200;
 
 /// Scattering cross-sections of single orders without diffraction, in units of the squared radius, of those
 /// of some orders whose waves are known one by one.
-pub fn scattered_by_order(
-    far_field: &FarField,
-    orders: &[u32],
-    rotational: bool,
-) -> Vec<(u32, f64)> {
+pub fn scattered_by_order(far_field: &FarField, orders: &[u32]) -> Vec<(u32, f64)> {
     let x = far_field.size_parameter();
-    let (angles, azimuths) =
-        if rotational { (ORDER_ANGLES_ALONE, 1) } else { (ORDER_ANGLES, ORDER_AZIMUTHS) };
+    let (angles, azimuths) = (ORDER_ANGLES, ORDER_AZIMUTHS);
     let step = PI / angles as f64;
     let theta: Vec<f64> = (0..angles).map(|i| (i as f64 + 0.5) * step).collect();
     let azimuth = |j: usize| PI * (j as f64 + 0.5) / azimuths as f64;

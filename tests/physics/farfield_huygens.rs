@@ -3,8 +3,8 @@
 
 use crate::support::{angles, relative_l2};
 use gonio::farfield::FarFieldSettings;
+use gonio::farfield::{ComplexWavefront, HuygensFresnel, Wave};
 use gonio::farfield::{Direction, FarField};
-use gonio::farfield::{HuygensFresnel, Wave};
 use gonio::optics::AmplitudeMatrix;
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::shape::{RaindropModel, Shape};
@@ -168,5 +168,33 @@ fn secondary_bow_next_to_total_reflection() {
         let error = matrix_error(&found, &truth);
         println!("{radius} m, azimuth {azimuth}°: {:.2} %", 1e2 * error);
         assert!(error < 0.035, "{radius} m, azimuth {azimuth}°: {error}");
+    }
+}
+
+/// Where the last ray that leaves jumps from azimuth to azimuth, since others are totally reflected,
+/// planes between the traced ones cannot be made of those. It had orders 1 and 2 wrong by up to
+/// eight times their amplitude. A sum over all rays knows no planes.
+#[test]
+fn planes_are_right_where_last_rays_jump() {
+    let index = Complex64::new(1.3314, 0.0);
+    let cases = [
+        (0.71, 20.0, 1, 60.0, 20.0, 65.0, 0.01),
+        (1.5, 20.0, 1, 60.0, 20.0, 60.0, 0.01),
+        (0.71, 20.0, 2, 60.0, 152.0, 158.0, 0.01),
+        (1.0, 20.0, 2, 60.0, 144.0, 158.0, 0.01),
+        (0.71, 60.0, 2, 120.0, 140.0, 144.0, 0.03),
+        (0.5, 20.0, 1, 60.0, 20.0, 65.0, 0.005),
+    ];
+    for (radius, sun, order, azimuth, from, to, bound) in cases {
+        let (radius, phi, sun) = (radius * 1e-3, f64::to_radians(azimuth), f64::to_radians(sun));
+        let x = TAU * radius / 650e-9;
+        let shape = Shape::raindrop(radius, RaindropModel::BeardChuang1987, sun).unwrap();
+        let tracer = Tracer::new(&shape, index, x, order).with_curved_interface(x);
+        let theta = angles(from, to, 0.1);
+        let planes = order_at(&tracer, order, x, (&theta, phi));
+        let sum = ComplexWavefront::new(&tracer, order, x).columns(&theta, &[phi]).swap_remove(0);
+        let error = matrix_error(&planes, &sum);
+        println!("{radius} m, order {order}, azimuth {azimuth}°: {:.3} %", 1e2 * error);
+        assert!(error < bound, "{radius} m, order {order}, azimuth {azimuth}°: {error}");
     }
 }

@@ -28,12 +28,13 @@ impl Judge {
             let share = self.share_of_sum(order);
             if share >= 1.0 {
                 let [_, limit] = self.by.wavefront_disorder(order, self.mirror);
-                let reason = Reason::Disordered(self.disorder_of(order), limit);
+                let reason = Reason::Disordered(self.decisive_disorder(order), limit);
                 return self.complex_wavefront(order, vec![reason]);
             }
             let mixed = (share > 0.0).then_some(Reason::Mixed(share));
             let mut entry = self.planes(order, mixed.into_iter().collect());
             entry.share_of_sum = share;
+            entry.expected_error += share * (self.error_of_wavefront(order) - entry.expected_error);
             return entry;
         }
         let expected_error = self.by.error_of_partial_waves / self.size_parameter;
@@ -82,10 +83,16 @@ impl Judge {
     }
 
     fn complex_wavefront(&self, order: u32, reasons: Vec<Reason>) -> Assigned {
-        let by_order = self.by.error_of_wavefront;
-        let expected_error = by_order[(order as usize).min(by_order.len() - 1)];
+        let expected_error = self.error_of_wavefront(order);
         let entry = assigned(order, Method::ComplexWavefront, reasons, expected_error);
         Assigned { share_of_sum: 1.0, ..entry }
+    }
+
+    /// What the wave next to the last ray misses falls like the width of the rim's edge, `x^(-1/3)`.
+    fn error_of_wavefront(&self, order: u32) -> f64 {
+        let by_order = self.by.error_of_wavefront;
+        let measured = by_order[(order as usize).min(by_order.len() - 1)];
+        (measured * (self.by.wavefront_measured_at / self.size_parameter).cbrt()).min(1.0)
     }
 
     /// Share of a sum on a complex wavefront in the wave of an order; the rest is that of scattering planes.
@@ -94,7 +101,7 @@ impl Judge {
             return 0.0;
         }
         let [from, to] = self.by.wavefront_disorder(order, self.mirror);
-        let t = ((self.disorder_of(order) - from) / (to - from)).clamp(0.0, 1.0);
+        let t = ((self.decisive_disorder(order) - from) / (to - from)).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     }
 
@@ -111,6 +118,12 @@ impl Judge {
         serves
             && (first..=last).contains(&order)
             && self.disorder_of(order) > self.by.cross_checked_disorder
+    }
+
+    /// The disorder by which a sum takes over: of high orders, whose bows are all made at the same rim, that
+    /// of the first.
+    fn decisive_disorder(&self, order: u32) -> f64 {
+        self.disorder_of(order.min(self.by.first_high_order))
     }
 
     pub(super) fn disorder_of(&self, order: u32) -> f64 {

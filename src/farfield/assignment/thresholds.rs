@@ -51,7 +51,11 @@ pub struct Thresholds {
     /// out the steep rays at the middle of the shadow, which hold next to nothing and stray far.
     pub first_high_order: u32,
     /// Caustic disorder over which a sum on a complex wavefront takes over from planes: of orders 1, 2, 3, and
-    /// of those from [`Thresholds::first_high_order`] on.
+    /// that of order [`Thresholds::first_high_order`] for all from it on. Raindrops with the sun at 20°: planes of
+    /// order 1 miss all of some azimuths from 1.8 mm on (0.205), those of order 2 are within 0.2 % of an
+    /// independent sum over wavefronts up to 1 mm (0.158) and 33 % off at some azimuths of 1.5 mm (0.316), those of
+    /// order 3 within 1.5 % up to 1 mm (0.237), where the sum errs by 4 to 5 % next to total reflection, and not
+    /// reciprocal at 1.3 mm (0.381); those of order 4 hold a third too much light at 0.6 mm (0.085).
     pub wavefront: [[f64; 2]; 4],
     /// How many times that for bodies that look the same from below: planes of a spheroid of axis ratio 0.9
     /// are reciprocal within 1e-4 up to order 3.
@@ -131,6 +135,8 @@ pub struct Thresholds {
     /// wavefronts of raindrops of 0.8 to 1.5 mm, and Debye terms; what the wave next to the last ray misses
     /// is most of it.
     pub error_of_wavefront: [f64; 5],
+    /// The size parameter at which that is.
+    pub wavefront_measured_at: f64,
     /// Of patches without bows (reflection), and with.
     pub error_of_reflection_by_patches: f64,
     /// The same with bows.
@@ -176,6 +182,7 @@ impl Thresholds {
         error_of_deformation: 4.2,
         strange_deformation: 0.2,
         error_of_wavefront: [0.3, 0.01, 0.03, 0.06, 0.3],
+        wavefront_measured_at: 1e4,
         error_of_reflection_by_patches: 0.07,
         error_of_patches: 0.3,
     };

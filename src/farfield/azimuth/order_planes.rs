@@ -99,7 +99,7 @@ impl OrderPlanes {
         } else if order < by.first_sparse_order {
             36.0
         } else {
-            16.0
+            20.0
         };
         let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let caustic_disorder = caustic_disorder(tracer, order);

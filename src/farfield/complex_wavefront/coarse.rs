@@ -158,13 +158,18 @@ impl CoarseGrid {
         })
     }
 
-    /// Radius of the silhouette.
-    pub(super) fn silhouette_radius(&self, psi: f64) -> f64 {
-        let at = psi / TAU * SILHOUETTE as f64;
+    /// Radius of the silhouette and its slope.
+    pub(super) fn silhouette(&self, psi: f64) -> (f64, f64) {
+        const H: f64 = 1e-3;
+        let scale = SILHOUETTE as f64 / TAU;
+        let at = psi * scale;
         let first = at.floor() as i64 - 2;
-        let weights = lagrange(at - first as f64);
         let value = |a: usize| self.rims[(first + a as i64).rem_euclid(SILHOUETTE as i64) as usize];
-        weights.iter().enumerate().map(|(a, w)| w * value(a)).sum()
+        let radius = |at: f64| -> f64 {
+            let weights = lagrange(at - first as f64);
+            weights.iter().enumerate().map(|(a, w)| w * value(a)).sum()
+        };
+        (radius(at), (radius(at + H) - radius(at - H)) / (2.0 * H) * scale)
     }
 
     /// A traced ray; rings below the first go on at the opposite azimuth.
@@ -267,7 +272,7 @@ fn rays(
 
 /// Steps in `(α, ψ)` with which a sum over this ray's surroundings is the integral: for a Gaussian
 /// `exp -½ yᵀAy` the sum over a lattice of step `h` along an axis errs by `exp -2π² Re(A⁻¹)/h²`.
-fn steps([[sa, ra], [sp, rp]]: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> [f64; 2] {
+pub(super) fn steps([[sa, ra], [sp, rp]]: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> [f64; 2] {
     let tau = Complex64::new(place.real, place.imaginary);
     let entry = |s: Vec3<f64>, r: Vec3<f64>, other: Vec3<f64>| tau * s.dot(other) + r.dot(other);
     let (aa, ap, pp) = (entry(sa, ra, sa), entry(sa, ra, sp), entry(sp, rp, sp));

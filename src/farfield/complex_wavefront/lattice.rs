@@ -30,11 +30,13 @@ const FEWEST: f64 = 24.0;
 const MOST: f64 = 40_000.0;
 
 impl Lattice {
-    /// From the steps on the coarse rings.
-    pub(super) fn new(steps: &Steps) -> Self {
+    /// From the steps on the coarse rings, so many times as wide.
+    pub(super) fn new(steps: &Steps, wider: f64) -> Self {
         let density = |axis: usize| {
             let largest = FRAC_PI_2 / FEWEST;
-            smoothed(&steps.iter().map(|s| 1.0 / s[axis].min(largest)).collect::<Vec<f64>>())
+            smoothed(
+                &steps.iter().map(|s| 1.0 / (wider * s[axis]).min(largest)).collect::<Vec<f64>>(),
+            )
         };
         let (by_alpha, by_psi) = (density(0), density(1));
         let at = |values: &[f64], alpha: f64| {
@@ -77,6 +79,12 @@ impl Lattice {
 }
 
 impl Ring {
+    /// Steps in `(α, ψ)`.
+    pub(super) fn steps(&self) -> [f64; 2] {
+        let by_psi = TAU / self.count as f64;
+        [self.weight / (self.alpha.sin() * self.alpha.cos() * by_psi), by_psi]
+    }
+
     /// Numbers of the points between a spoke of the coarse grid and the next.
     pub(super) fn points_between(&self, spoke: usize) -> Range<usize> {
         let first = |spoke: usize| {
@@ -117,7 +125,7 @@ mod tests {
     fn weights_make_the_disc() {
         let steps: Steps =
             (0..RINGS).map(|i| [0.02 / (1.0 + i as f64 * 0.03), 0.01 + 0.001 * i as f64]).collect();
-        let lattice = Lattice::new(&steps);
+        let lattice = Lattice::new(&steps, 1.0);
         let sum: f64 = lattice.rings.iter().map(|r| r.weight * r.count as f64).sum();
         assert!((sum - 0.5 * TAU).abs() < 1e-4, "{sum}");
     }

@@ -1,15 +1,36 @@
 //! The sum itself: ring by ring, cell by cell, for those columns that a cell's rays come near.
 
-use super::channels::{Channels, PLACE, Place, channels};
-use super::coarse::{CoarseGrid, Kind, SPOKES, blend};
+use super::channels::{Channels, FIELDS, PLACE, Place, by_launch, channels};
+use super::coarse::{CoarseGrid, Kind, SPOKES, blend, steps};
 use super::kernel::{Column, Ray};
-use super::lattice::Lattice;
+use super::lattice::{Lattice, Ring};
 use crate::farfield::wave_field::WaveField;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 
-/// Rays count as long as the window is above `exp -CUT_OFF`.
-const CUT_OFF: f64 = 9.0;
+/// How finely an order is summed.
+struct Fineness {
+    /// Rays count as long as the window is above `exp -cut_off`.
+    cut_off: f64,
+    /// Steps of the lattice, in those that add `exp -8` to the integral.
+    steps: f64,
+}
+
+impl Fineness {
+    /// Low orders within a few thousandths; of high ones the wave beside the last ray, which no sum has, is so
+    /// much more that one percent will do.
+    fn of_order(order: u32) -> Self {
+        const LAST_FINE: u32 = 3;
+        if order > LAST_FINE {
+            Self { cut_off: 5.0, steps: 1.33 }
+        } else {
+            Self { cut_off: 9.0, steps: 1.0 }
+        }
+    }
+}
+
+/// Steps that a ray's wave needs, within one of the lattice: beyond, the sum is no integral.
+const WIDEST: f64 = 2.0;
 
 /// One order as a sum on a complex wavefront, or a share of its amplitude.
 pub struct ComplexWavefront<'a> {
@@ -49,7 +70,7 @@ impl<'a> ComplexWavefront<'a> {
         size_parameter: f64,
         place: Place,
     ) -> Self {
-        let lattice = Lattice::new(&grid.steps);
+        let lattice = Lattice::new(&grid.steps, Fineness::of_order(order).steps);
         Self { tracer: tracer.clone(), size_parameter, place, order, share, grid, lattice }
     }
 
@@ -69,7 +90,9 @@ impl<'a> ComplexWavefront<'a> {
     fn add_rays(&self, theta: &[f64], columns: &mut [Column]) {
         let x = self.size_parameter;
         let (Some(&first), Some(&last)) = (theta.first(), theta.last()) else { return };
-        let window = (2.0 * CUT_OFF / (x * self.place.imaginary)).sqrt().min(2.0);
+        let window = (2.0 * Fineness::of_order(self.order).cut_off / (x * self.place.imaginary))
+            .sqrt()
+            .min(2.0);
         let mut near: Vec<usize> = Vec::with_capacity(columns.len());
         for ring in &self.lattice.rings {
             let rows = self.grid.rows(ring.alpha);
@@ -96,7 +119,7 @@ impl<'a> ComplexWavefront<'a> {
                     let psi = ring.azimuth(point);
                     let found = match &values {
                         Some(values) => Some(blend(values, psi, spoke)),
-                        None => self.traced(ring.alpha, psi),
+                        None => self.traced(ring, psi),
                     };
                     let Some(channels) = found else { continue };
                     let ray = Ray::new(&channels, ring.weight * self.share, self.place, x);
@@ -108,12 +131,19 @@ impl<'a> ComplexWavefront<'a> {
         }
     }
 
-    /// The channels of one ray.
-    fn traced(&self, alpha: f64, psi: f64) -> Option<Channels> {
-        let rim = self.grid.silhouette_radius(psi);
-        let place = [rim * alpha.sin() * psi.cos(), rim * alpha.sin() * psi.sin()];
+    /// The channels of one ray. Next to total reflection directions run so fast that its wave may be far
+    /// narrower than a step of the lattice: it stands for no more than its own width.
+    fn traced(&self, ring: &Ring, psi: f64) -> Option<Channels> {
+        let (rim, slope) = self.grid.silhouette(psi);
+        let place = [rim * ring.alpha.sin() * psi.cos(), rim * ring.alpha.sin() * psi.sin()];
         let exit = self.tracer.trace_order(place[0], place[1], self.order)?;
-        channels(&exit, self.place, rim * rim)
+        let tangents = by_launch(&exit, [ring.alpha, psi], (rim, slope));
+        let needed = steps(tangents, self.size_parameter, self.place);
+        let share: f64 =
+            needed.iter().zip(ring.steps()).map(|(n, s)| (WIDEST * n / s).min(1.0)).product();
+        let mut found = channels(&exit, self.place, rim * rim)?;
+        found[FIELDS..].iter_mut().for_each(|value| *value *= share);
+        Some(found)
     }
 }
 
