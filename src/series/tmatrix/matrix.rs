@@ -19,12 +19,14 @@ pub struct TMatrix {
     pub(super) solver: Solver,
     pub(super) degrees: usize,
     pub(super) asymmetry: f64,
+    /// Error by what the last degrees have changed, where that was tried.
+    pub(super) drift: f64,
 }
 
 impl TMatrix {
     /// Estimated error of amplitudes, root mean square over all directions, relative to their own.
     pub fn error(&self) -> f64 {
-        range::error_of(self.asymmetry)
+        range::error_of(self.asymmetry, self.degrees).max(self.drift)
     }
 
     /// Relative norm of what reciprocity says should vanish.
@@ -45,6 +47,19 @@ impl TMatrix {
     /// Index relative to the medium around.
     pub fn index(&self) -> Complex64 {
         self.index
+    }
+
+    /// Relative norm of the difference to a T of more degrees.
+    pub(super) fn distance(&self, finer: &Self) -> f64 {
+        let weight = |m: usize| if m == 0 { 1.0 } else { 2.0 };
+        let (mut norm, mut distance) = (0.0, 0.0);
+        for (m, block) in finer.blocks.iter().enumerate() {
+            let square = block.norm_and_oddness().0;
+            norm += weight(m) * square;
+            let known = self.blocks.get(m).map(|own| own.squared_distance(block));
+            distance += weight(m) * known.unwrap_or(square);
+        }
+        (distance / norm).sqrt()
     }
 
     /// k times the height of the waves' origin.
