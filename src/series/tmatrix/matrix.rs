@@ -81,3 +81,20 @@ impl TMatrix {
         (extinction, scattering)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+
+    /// A T of a few more degrees is as far away as it says; itself it is not away from.
+    #[test]
+    fn distances_are_about_the_stated_errors() {
+        let shape = Shape::spheroid(0.7, 0.0).unwrap();
+        let of = |tolerance| TMatrix::new(&shape, 6.0, Complex64::from(1.4), tolerance).unwrap();
+        let (rough, fine) = (of(1e-2), of(1e-9));
+        assert_eq!(fine.distance(&fine), 0.0);
+        let distance = rough.distance(&fine);
+        assert!((0.1..10.0).contains(&(rough.error() / distance)), "{} {distance}", rough.error());
+    }
+}

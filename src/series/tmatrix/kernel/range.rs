@@ -130,3 +130,38 @@ pub(in crate::series::tmatrix) fn seconds(
     let once = share * of_hundred * (degrees as f64 / 100.0).powi(4);
     if asymmetry_is_silent(degrees, index) { CHECKED * once } else { once }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sphere_is_no_strain_and_larger_bodies_cost_more() {
+        let water = Complex64::from(1.33);
+        let round = of_spread(50.0, (1.0, 1.0), true);
+        assert_eq!((round.strain, round.degrees), (0.0, degrees(50.0)));
+        let flat = of_spread(50.0, (0.8, 1.1), true);
+        assert!(flat.strain > 0.0 && flat.degrees > round.degrees);
+        for solver in [Solver::NullField, Solver::LeastSquares] {
+            let cost = |degrees| seconds(solver, degrees, false, water);
+            assert!((13..200).all(|degrees| cost(degrees) < cost(degrees + 1)));
+            assert!(seconds(solver, 80, true, water) < cost(80));
+        }
+    }
+
+    /// Never less than rounding leaves, never more than the tolerance where the aim is met.
+    #[test]
+    fn errors_follow_what_is_measured() {
+        for degrees in [5, 20, 60] {
+            assert_eq!(error_of(0.0, degrees), ROUNDING);
+            assert!(error_of(aim(1e-3), degrees) <= 1e-3);
+        }
+        assert_eq!(aim(1e-30), AIM);
+        assert!((error_of_change(1e-5, 1e-6, 1e-7) / 1e-6 - 1.0).abs() < 1e-12);
+        assert_eq!(error_of_change(1e-5, 1e-7, 1e-6), 1e-5);
+        assert_eq!(error_of_change(1e-2, 1e-6, 1e-9), 1e-2);
+        let (clear, dark) = (Complex64::from(1.5), Complex64::new(1.5, 0.1));
+        assert!(asymmetry_is_silent(60, clear) && !asymmetry_is_silent(60, dark));
+        assert!(asymmetry_is_silent(5, dark) && !asymmetry_is_silent(20, clear));
+    }
+}
