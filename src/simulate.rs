@@ -170,7 +170,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         peak_edge: plan.thresholds.peak_edge,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
-    let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
+    let Values { values, caustic_order, sum_before_peak, peak_change, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
         worth(&far_field, plan, index, size_parameter, treatment)?
@@ -181,6 +181,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         Some(lost) => error_estimate.at_least(lost),
         None => error_estimate,
     };
+    let error_estimate = error_estimate.and(peak_change.weighted, &peak_change.by_direction);
     let known = !error_estimate.weighted.is_nan();
     let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {

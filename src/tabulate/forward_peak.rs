@@ -27,8 +27,9 @@ impl ForwardCells {
     /// The cells of the θ axis (ascending) that lie within the peak; with or without means over coarse ones.
     pub fn new(theta: &[f64], size_parameter: f64, mean: bool) -> Self {
         let reach = near_axis(size_parameter);
-        let count = theta.partition_point(|&t| t < reach);
         let coarse = if mean { coarse_cells(theta, size_parameter) } else { Vec::new() };
+        // a cell that the peak reaches into is its own as a whole
+        let count = theta.partition_point(|&t| t < reach).max(coarse.len());
         let mut cells = Self::default();
         for (i, &t) in theta[..count].iter().enumerate() {
             let (angles, shares) = match coarse.get(i) {
@@ -73,7 +74,13 @@ impl PeakRows {
             near_axis(peak.size_parameter) * peak.size_parameter * peak.shadow.deformation();
         let last = if reach < 1e-9 { 0 } else { 32 + (1.5 * reach).ceil() as usize };
         let azimuths = (0..=last).map(|j| PI * j as f64 / last.max(1) as f64);
-        let row = |phi| cells.theta.iter().map(|&t| peak.peak(&Direction::new(t, phi))).collect();
+        let inside = near_axis(peak.size_parameter);
+        // the last cell may reach to where the wave is in those of planes
+        let wave = |theta: f64, phi: f64| match Direction::new(theta, phi) {
+            direction if theta < inside => peak.peak(&direction),
+            direction => peak.beside_planes(&direction),
+        };
+        let row = |phi| cells.theta.iter().map(|&theta| wave(theta, phi)).collect();
         Self { rows: azimuths.map(row).collect() }
     }
 
@@ -106,14 +113,15 @@ mod tests {
         let theta: Vec<f64> = (0..=360).map(|i| PI * i as f64 / 360.0).collect();
         for (x, coarse) in [(20.0, false), (100.0, true), (5000.0, true)] {
             let cells = ForwardCells::new(&theta, x, true);
-            assert_eq!(cells.len(), theta.partition_point(|&t| t < 20.0 * PI / x));
+            let inside = theta.partition_point(|&t| t < 20.0 * PI / x);
+            assert!(cells.len() == inside || cells.len() == inside + 1);
             assert_eq!(cells.theta.len() > cells.len(), coarse, "{x}");
             assert!(cells.theta.is_sorted());
             for (i, shares) in cells.shares.iter().enumerate() {
                 assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12, "{x} {i}");
             }
             assert!(cells.theta.last().unwrap() < &theta[cells.len()]);
-            assert_eq!(ForwardCells::new(&theta, x, false).theta, theta[..cells.len()]);
+            assert_eq!(ForwardCells::new(&theta, x, false).theta, theta[..inside]);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! From columns of amplitudes to the values of one slab, normalised, with the forward peak in it.
 
 use super::forward_peak::{ForwardCells, PeakRows};
+use super::peak_change::PeakChange;
 use crate::farfield::forward::wave::ForwardWave;
 use crate::farfield::patches::gaussian_filter;
 use crate::farfield::{Column, FarField};
@@ -43,6 +44,8 @@ pub struct Values {
     pub caustic_order: Option<Array2<u8>>,
     /// Sum over the samples before the forward peak was treated.
     pub sum_before_peak: f64,
+    /// What closing the sum has changed.
+    pub peak_change: PeakChange,
     /// Share of the power in the separated peak.
     pub peak_share: f64,
     /// Mean cosine of the scattering angle.
@@ -102,14 +105,18 @@ impl Tabulator<'_> {
         fill(values.view_mut(), &lines, places);
         let weights = (&weights.0[..], &weights.1[..]);
         let (factor, sum_before_peak, peak_share) = self.close(&lines, places, weights, &values);
-        self.write_forward(&mut values, &lines, places, factor);
+        let before = self.write_forward(&mut values, &lines, places, factor);
+        let peak_change = match factor == 1.0 {
+            true => PeakChange::NONE,
+            false => PeakChange::new(axes, before.view(), values.index_axis(Axis(0), 0)),
+        };
         let caustic_order = lines.iter().any(|l| !l.caustic_order.is_empty()).then(|| {
             Array2::from_shape_fn((axes.theta.len(), axes.phi.len()), |(i, j)| {
                 lines[places[j].0].caustic_order.get(i).copied().unwrap_or(0)
             })
         });
         let asymmetry = asymmetry(&values, weights, &axes.theta);
-        Values { values, caustic_order, sum_before_peak, peak_share, asymmetry }
+        Values { values, caustic_order, sum_before_peak, peak_change, peak_share, asymmetry }
     }
 
     fn forward_cells(&self) -> ForwardCells {
@@ -284,23 +291,28 @@ impl Tabulator<'_> {
         sums
     }
 
+    /// Write the rows of the peak; hands back what they were before its power was scaled, shape (cell, φ).
     fn write_forward(
         &self,
         values: &mut Array3<f32>,
         lines: &[Line],
         places: &[(usize, bool)],
         factor: f64,
-    ) {
+    ) -> Array2<f64> {
         let scale = self.scale();
         let elements = self.quantity.elements();
+        let cells = lines.first().map_or(0, |line| line.forward.len() / elements);
+        let mut before = Array2::zeros((cells, places.len()));
         for (j, &(line, mirrored)) in places.iter().enumerate() {
             for (i, cell) in lines[line].forward.chunks_exact(elements).enumerate() {
+                before[[i, j]] = at_scale(cell[0], 1.0) * scale;
                 for (e, &power) in cell.iter().enumerate() {
                     let sign = if mirrored { mirror_sign(e) } else { 1.0 };
                     values[[e, i, j]] = (sign * at_scale(power, factor.sqrt()) * scale) as f32;
                 }
             }
         }
+        before
     }
 }
 
