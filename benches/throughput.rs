@@ -65,15 +65,12 @@ fn patch_rate(shape: &Shape, index: Complex64, size: f64) {
 /// Samples of table columns by meridians (orders 0 to 3), one core.
 fn column_rate(shape: &Shape, index: Complex64, size: f64) {
     let tracer = Tracer::new(shape, index, size, 3).with_curved_interface(size);
-    let azimuths: Vec<f64> = (0..=180).map(|i| f64::from(i).to_radians()).collect();
     let orders = [0, 1, 2, 3];
     let settings = FarFieldSettings {
         size_parameter: size,
         orders: &orders,
         tolerance: 0.01,
         diffraction: false,
-        checked: true,
-        azimuths: &azimuths,
     };
     let start = Instant::now();
     let far_field = FarField::meridians(&tracer, &settings);

@@ -83,8 +83,6 @@ fn engine(tracer: &Tracer, x: f64, order: u32, theta: &[f64], phi: f64) -> Vec<A
         orders: &[order],
         tolerance: 0.01,
         diffraction: false,
-        checked: true,
-        azimuths: &[phi],
     };
     let far_field = FarField::meridians(tracer, &settings);
     let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, phi)).collect();

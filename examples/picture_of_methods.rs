@@ -99,8 +99,6 @@ impl Drawing {
             orders: &ORDERS,
             tolerance: 0.01,
             diffraction: true,
-            checked: false,
-            azimuths: &[0.0],
         };
         let shadow = ForwardDiffraction::new(shape);
         let pieces = PlaneSet::new(&tracer, &settings, &shadow, &Thresholds::MEASURED).pieces();

@@ -86,8 +86,8 @@ pub struct Plan {
     pub tolerance: f64,
     /// By which numbers particles are accepted, and each order gets its method.
     pub thresholds: Thresholds,
-    /// Whether rays of flattened particles are checked by a second method; many runs of much the same
-    /// particle may do without.
+    /// Whether the power of each order is compared with its rays' and the error is measured; many runs of much
+    /// the same particle may do without.
     pub checked: bool,
     /// Grid of the patches: rings from centre to rim, and spokes.
     pub rings: usize,

@@ -1,6 +1,6 @@
 //! The main path on one page: plan, trace, collect, interfere, diffract, tabulate.
 //!
-//! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (meridians, beams, or
+//! Wavelength by wavelength: rays are traced, order by order, into a [`FarField`] (meridians, sums, or
 //! the patches of the published method); every azimuth of the table becomes a column of its amplitudes,
 //! and the columns become a [`Slab`], which is handed on before the next wavelength is computed.
 //!
@@ -32,6 +32,7 @@ mod directions;
 mod energy;
 mod error;
 mod header;
+mod order_power;
 mod t_matrix;
 
 pub use cross_sections::CrossSections;
@@ -58,7 +59,8 @@ use cross_sections::straight_ahead;
 use energy::{energy, imbalance, left_out};
 use header::header_of;
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use order_power::{doubts, mark, order_powers, refuse_imbalance};
+use std::f64::consts::{PI, TAU};
 
 /// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
 /// with its index while the next one is being computed. No slab is handed on that
@@ -134,10 +136,10 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let size_parameter = TAU * plan.radius / wavelength;
     let budget = energy(plan, wavelength, index, size_parameter)?;
     let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
-    let far_field = far_field(plan, index, size_parameter, &scene.phi, in_table);
+    let far_field = far_field(plan, index, size_parameter, in_table);
     // Kept apart, the peak is not joined to the rays at the edge; cross-sections are those of the whole.
     let apart = plan.forward_diffraction && !in_table && plan.engine == Engine::Meridians;
-    let joined = apart.then(|| self::far_field(plan, index, size_parameter, &scene.phi, true));
+    let joined = apart.then(|| self::far_field(plan, index, size_parameter, true));
     let whole = joined.as_ref().unwrap_or(&far_field);
     let sections = CrossSections::new(plan, whole, index, budget.absorbed);
     // What the edge takes beyond the shadow goes with the peak.
@@ -155,7 +157,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let methods = far_field.assignment().cloned();
     let methods =
         methods.or_else(|| plan.assignment(&plan.tracer(index, size_parameter), size_parameter));
-    let methods = methods.map_or_else(Vec::new, |all| all.parts(&budget.left_by_order));
+    let mut methods = methods.map_or_else(Vec::new, |all| all.parts(&budget.left_by_order));
     let tabulator = Tabulator {
         theta: &scene.theta,
         size_parameter,
@@ -173,7 +175,11 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let Values { values, caustic_order, sum_before_peak, peak_change, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
-        worth(&far_field, plan, index, size_parameter, treatment)?
+        let powers = order_powers(plan, &far_field, index, &budget)?;
+        let (by, area) = (&plan.thresholds, far_field.silhouette().area());
+        refuse_imbalance(&powers, by.most_power_lost, area, wavelength)?;
+        mark(&mut methods, &powers, by.most_order_off);
+        worth(&far_field, plan, index, size_parameter, treatment, &doubts(&powers), &COMPARED)?
     } else {
         ErrorEstimate::UNKNOWN
     };
@@ -247,6 +253,9 @@ fn sphere_check<'p>(
     }
 }
 
+/// Azimuths of a table at which planes are compared with sums.
+const COMPARED: [f64; 5] = [0.1 * PI, 0.3 * PI, 0.5 * PI, 0.7 * PI, 0.9 * PI];
+
 /// The estimate of its error that a far field makes of itself, from what the method is worth on the sphere of
 /// equal volume.
 ///
@@ -258,11 +267,13 @@ fn worth(
     index: Complex64,
     size_parameter: f64,
     treatment: Treatment,
+    doubts: &[(u32, f64)],
+    azimuths: &[f64],
 ) -> Result<ErrorEstimate, SeriesError> {
     let assignment = far_field.assignment();
     let sphere = sphere_check(plan, index, size_parameter, treatment, assignment).errors()?;
     let tracer = plan.tracer(index, size_parameter);
-    Ok(far_field.error_estimate(&tracer, &sphere, treatment.interference))
+    Ok(far_field.error_estimate(&tracer, &sphere, treatment.interference, doubts, azimuths))
 }
 
 /// Trace, and make the far field ready for columns and directions, with forward diffraction joined
@@ -271,21 +282,17 @@ fn far_field<'a>(
     plan: &'a Plan,
     index: Complex64,
     size_parameter: f64,
-    azimuths: &[f64],
     diffraction: bool,
 ) -> FarField<'a> {
     let tracer = plan.tracer(index, size_parameter);
     if let Some(assignment) =
         plan.assignment(&tracer, size_parameter).filter(|_| plan.engine == Engine::Meridians)
     {
-        let (azimuths, _) = plan.computed_azimuths(azimuths);
         let settings = FarFieldSettings {
             size_parameter,
             orders: &plan.orders,
             tolerance: plan.tolerance,
             diffraction,
-            checked: plan.checked,
-            azimuths: &azimuths,
         };
         return FarField::assigned(&tracer, &settings, assignment);
     }

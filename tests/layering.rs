@@ -330,7 +330,7 @@ const FARFIELD: [&[&str]; 13] = [
     &["cross_check.rs"],
     &["fallback.rs"],
     &["azimuth", "partial_waves", "reference"],
-    &["forward", "gaussian_beams", "patches"],
+    &["forward", "complex_wavefront", "patches"],
     &["impact_integral"],
     &["deflection"],
     &["branch"],

@@ -1,84 +1,57 @@
-//! Scattering planes against Gaussian beams, two independent ways to the same wave.
+//! Scattering planes against a sum on a complex wavefront, two independent ways to the same wave.
 //!
-//! On strongly flattened particles rays may gather where no plane tells (a fold across its plane, a
-//! branch that its scan does not reach). Beams see every ray, but are a few percent coarser. So for
-//! such particles both are computed at some directions. What comes of it is a value, the largest share of
-//! the amplitude by which they differ; [`super::assignment`] says for which orders, and what follows.
+//! On flattened particles rays may gather where no plane tells (a fold across its plane), or go on beyond
+//! total reflection, where no plane follows them. A sum sees every ray. So where rays of an order stray from a
+//! sphere's, both are computed at some directions; how far they are apart is a value, which goes into
+//! the stated error. Which orders are compared is said by [`super::assignment`].
 
-use crate::farfield::assignment::{Difference, Thresholds};
 use crate::farfield::azimuth::plane_set::PlaneSet;
-use crate::farfield::gaussian_beams::GaussianBeams;
-use crate::farfield::wave_field::waves;
+use crate::farfield::complex_wavefront::ComplexWavefront;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
-use std::f64::consts::PI;
 
-/// Azimuths, scattering angles in each and in each band.
-const AZIMUTHS: usize = 9;
-const SAMPLES: usize = 640;
-const BAND: usize = 16;
-
-/// How far the waves of some orders are from those of beams; no more is looked at once they are gross.
-pub(crate) fn differences(
+/// `S11` of what parts the waves of some orders from sums alone, by scattering angle, mean over some azimuths
+/// in [0, π]; `shares` are orders with the share of their amplitude that planes have.
+pub(crate) fn disagreement(
     planes: &PlaneSet,
     tracer: &Tracer,
-    orders: &[u32],
-    size_parameter: f64,
-    by: &Thresholds,
-) -> Vec<Difference> {
-    let theta: Vec<f64> =
-        (0..SAMPLES).map(|k| PI * (0.08 + 0.84 * (k as f64 + 0.5) / SAMPLES as f64)).collect();
-    let difference = |&order: &u32| {
-        let azimuths = planes.some_azimuths(order, AZIMUTHS);
-        let beams = GaussianBeams::new(tracer, &[order], &azimuths, size_parameter);
-        let mut share = 0.0f64;
-        for phi in azimuths {
-            let found = planes.columns_of(order, &theta, phi);
-            share = share.max(largest_share(&found, &waves(&beams, &theta, phi), by.faint_band));
-            if share > by.gross_difference {
-                break;
-            }
+    shares: &[(u32, f64)],
+    theta: &[f64],
+    azimuths: &[f64],
+) -> Vec<f64> {
+    let mut apart = vec![0.0; theta.len()];
+    for sum in ComplexWavefront::of_orders(tracer, shares, planes.size_parameter()) {
+        let found = planes.columns_of(sum.order(), theta, azimuths);
+        for (one, other) in found.iter().zip(sum.columns(theta, azimuths)) {
+            add_difference(&mut apart, one, &other, azimuths.len());
         }
-        Difference { order, share }
-    };
-    orders.iter().map(difference).collect()
+    }
+    apart
 }
 
-/// Largest share of the amplitude by which two columns differ in a band that is not faint.
-fn largest_share(found: &[AmplitudeMatrix], beams: &[AmplitudeMatrix], faint: f64) -> f64 {
-    let power = |column: &[AmplitudeMatrix]| column.iter().map(AmplitudeMatrix::s11).sum::<f64>();
-    let faint = faint * power(beams) * BAND as f64 / beams.len() as f64;
-    let share = |(found, beams): (&[AmplitudeMatrix], &[AmplitudeMatrix])| {
-        let off: f64 = found.iter().zip(beams).map(|(f, b)| (*f - *b).s11()).sum();
-        let most = power(beams).max(power(found));
-        if most > faint { (off / most).sqrt() } else { 0.0 }
-    };
-    found.chunks(BAND).zip(beams.chunks(BAND)).map(share).fold(0.0, f64::max)
+fn add_difference(
+    apart: &mut [f64],
+    one: &[AmplitudeMatrix],
+    other: &[AmplitudeMatrix],
+    count: usize,
+) {
+    for (sum, (a, b)) in apart.iter_mut().zip(one.iter().zip(other)) {
+        *sum += (*a - *b).s11() / count as f64;
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn column(size: impl Fn(usize) -> f64) -> Vec<AmplitudeMatrix> {
-        (0..SAMPLES)
-            .map(|k| AmplitudeMatrix {
-                s1: size(k).into(),
-                s2: size(k).into(),
-                ..Default::default()
-            })
-            .collect()
-    }
-
+    /// Phases count, and azimuths alike.
     #[test]
-    fn the_worst_band_counts_unless_it_is_faint() {
-        let beams = column(|_| 1.0);
-        let off = |by: f64| column(|k| if k < BAND { 1.0 - by } else { 1.0 });
-        assert_eq!(largest_share(&beams, &beams, 0.05), 0.0);
-        assert!((largest_share(&off(0.4), &beams, 0.05) - 0.4).abs() < 1e-12);
-        let faint = column(|k| if k < BAND { 0.1 } else { 1.0 });
-        let without = column(|k| if k < BAND { 0.0 } else { 1.0 });
-        assert_eq!(largest_share(&without, &faint, 0.05), 0.0);
-        assert_eq!(largest_share(&without, &faint, 0.005), 1.0);
+    fn differences_are_those_of_waves() {
+        let column =
+            |s: f64| vec![AmplitudeMatrix { s1: s.into(), s2: s.into(), ..Default::default() }; 2];
+        let mut apart = vec![0.0; 2];
+        add_difference(&mut apart, &column(1.0), &column(-1.0), 2);
+        add_difference(&mut apart, &column(3.0), &column(3.0), 2);
+        assert_eq!(apart, [2.0; 2]);
     }
 }

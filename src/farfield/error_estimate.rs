@@ -2,15 +2,16 @@
 //!
 //! What the method is worth is measured on the sphere of equal volume ([`super::sphere_check`]). Of other
 //! shapes two things are added: what interpolation over azimuth costs, by tracing meridians half-way
-//! between those of the set and with twice the knots; and how far beams and patches are from exact
+//! between those of the set and with twice the knots; and how far sums and patches are from exact
 //! series. Waves of which no more is known than that they are wrong by `Δ` change the intensity `|S|²` by
 //! `√2 |S||Δ|` on average over their phase.
 
 use super::assignment::Method;
+use super::cross_check::disagreement;
 use super::direction::Direction;
 use super::far_field::{FarField, Source};
 use super::sphere_check::{SAMPLES, SphereErrors, band_squares, samples, spread};
-use crate::farfield::azimuth::plane_set::PlaneSet;
+use crate::farfield::azimuth::plane_set::{CHECKED_AZIMUTH, PlaneSet};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{ERROR_BANDS, error_theta};
 use crate::trace::Tracer;
@@ -98,12 +99,15 @@ impl ErrorEstimate {
 
 impl FarField<'_> {
     /// The method's own estimate of its error, from those that it has on the sphere of equal volume;
-    /// `interference` says how a table adds up its patches.
+    /// `interference` says how a table adds up its patches, `doubts` by which shares of their amplitudes orders
+    /// are known to be wrong, `azimuths` (in [0, π]) where planes are compared with sums.
     pub fn error_estimate(
         &self,
         tracer: &Tracer,
         sphere: &SphereErrors,
         interference: bool,
+        doubts: &[(u32, f64)],
+        azimuths: &[f64],
     ) -> ErrorEstimate {
         let theta = samples();
         let sphere_squares = if tracer.shape().is_sphere() {
@@ -116,7 +120,7 @@ impl FarField<'_> {
             let found = self.patch_intensities(&theta, PATCH_AZIMUTH, true, interference, None);
             return ErrorEstimate::of_bands(&sphere_squares, &band_squares(&found), sphere);
         };
-        let azimuth = planes.checked_azimuth;
+        let azimuth = CHECKED_AZIMUTH;
         let (waves, mut wrong) = fallback.doubted(&theta, azimuth);
         let missed = if tracer.shape().is_sphere() {
             vec![AmplitudeMatrix::default(); theta.len()]
@@ -132,6 +136,16 @@ impl FarField<'_> {
         let off: Vec<f64> =
             (0..theta.len()).map(|i| (amplitudes[i] + missed[i]).s11() - found[i]).collect();
         let inside: Vec<f64> = rays.iter().zip(&waves).map(|(r, w)| (*r + *w).s11()).collect();
+        for &(order, doubt) in doubts {
+            let waves = self.columns_of_order(order, &theta, &[azimuth]).unwrap_or_default();
+            let waves = waves.iter().flatten();
+            wrong.iter_mut().zip(waves).for_each(|(w, s)| *w += doubt * doubt * s.s11());
+        }
+        let compared = self.assignment().map(|all| all.cross_checked()).unwrap_or_default();
+        if !compared.is_empty() && !azimuths.is_empty() {
+            let apart = disagreement(planes, tracer, &compared, &theta, azimuths);
+            wrong.iter_mut().zip(apart).for_each(|(w, apart)| *w += apart);
+        }
         let doubt = self.doubt_of_deformation();
         let most =
             if self.planes_in_place_of_waves() { f64::INFINITY } else { self.doubtful(&inside) };
@@ -185,7 +199,7 @@ fn median(values: &[f64]) -> f64 {
 /// An azimuth off the spokes of patches.
 const PATCH_AZIMUTH: f64 = 1.0;
 
-impl PlaneSet {
+impl PlaneSet<'_> {
     /// What interpolation misses at some scattering angles of an azimuth, all orders together: what it errs by in
     /// phase alone changes the intensity only where waves meet.
     fn missed(&self, tracer: &Tracer, theta: &[f64], azimuth: f64) -> Vec<AmplitudeMatrix> {

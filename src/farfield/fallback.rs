@@ -1,8 +1,8 @@
-//! Orders that planes do not serve, each by the method that it is assigned to: sums of partial waves, of
-//! beams, or patches.
+//! Orders that planes do not serve, or only in part, each by the method that it is assigned to: sums of
+//! partial waves, on a complex wavefront, or patches.
 
 use crate::farfield::assignment::{Assignment, Method};
-use crate::farfield::gaussian_beams::GaussianBeams;
+use crate::farfield::complex_wavefront::ComplexWavefront;
 use crate::farfield::partial_waves::PartialWaves;
 use crate::farfield::patches::field::PatchField;
 use crate::farfield::settings::FarFieldSettings;
@@ -11,42 +11,41 @@ use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 
 /// The waves of orders without planes.
-pub(crate) struct FallbackField(Vec<Part>);
+pub(crate) struct FallbackField<'a>(Vec<Part<'a>>);
 
-/// Orders that one method serves.
-struct Part {
-    field: Box<dyn WaveField>,
+/// What one method serves.
+struct Part<'a> {
+    field: Box<dyn WaveField + 'a>,
+    /// Its order; `None` for partial waves, which hold several.
+    order: Option<u32>,
     /// Share of its amplitude by which its wave may be wrong, measured against Debye terms.
     doubt: f64,
 }
 
-impl FallbackField {
+impl<'a> FallbackField<'a> {
     /// What an assignment leaves beside scattering planes; `waves` are its partial waves.
     pub(crate) fn new(
-        tracer: &Tracer,
+        tracer: &Tracer<'a>,
         waves: Option<PartialWaves>,
         assignment: &Assignment,
         settings: &FarFieldSettings,
     ) -> Self {
-        let mut parts = Vec::new();
+        let mut parts: Vec<Part<'a>> = Vec::new();
         if let Some(waves) = waves {
             // theirs is measured on the sphere, and stated by the deformation of others
-            parts.push(Part { field: Box::new(waves), doubt: 0.0 });
+            parts.push(Part { field: Box::new(waves), order: None, doubt: 0.0 });
         }
-        let doubt = |orders: &[u32]| orders.iter().min().map(|&lowest| assignment.error_of(lowest));
-        let (reflected, transmitted): (Vec<u32>, Vec<u32>) =
-            assignment.orders_of(Method::Patches).into_iter().partition(|&order| order == 0);
-        for orders in [reflected, transmitted] {
-            if let Some(doubt) = doubt(&orders) {
-                let field = Box::new(PatchField::of_orders(tracer, &orders, settings));
-                parts.push(Part { field, doubt });
+        for order in assignment.orders_of(Method::Patches) {
+            let field = Box::new(PatchField::of_orders(tracer, &[order], settings));
+            parts.push(Part { field, order: Some(order), doubt: assignment.error_of(order) });
+        }
+        let shares = assignment.shares_of_sum();
+        if !shares.is_empty() {
+            for sum in ComplexWavefront::of_orders(tracer, &shares, settings.size_parameter) {
+                let order = sum.order();
+                let doubt = assignment.error_of(order);
+                parts.push(Part { field: Box::new(sum), order: Some(order), doubt });
             }
-        }
-        let by_beams = assignment.orders_of(Method::Beams);
-        if let Some(doubt) = doubt(&by_beams) {
-            let (azimuths, x) = (settings.azimuths, settings.size_parameter);
-            let field = Box::new(GaussianBeams::new(tracer, &by_beams, azimuths, x));
-            parts.push(Part { field, doubt });
         }
         Self(parts)
     }
@@ -64,12 +63,31 @@ impl FallbackField {
         }
         (sums, wrong)
     }
+
+    /// Add the waves of one order to columns of some azimuths.
+    pub(crate) fn add_order(
+        &self,
+        order: u32,
+        theta: &[f64],
+        azimuths: &[f64],
+        columns: &mut [Vec<AmplitudeMatrix>],
+    ) {
+        for part in self.0.iter().filter(|part| part.order == Some(order)) {
+            part.field.add_columns(theta, azimuths, columns);
+        }
+    }
 }
 
-impl WaveField for FallbackField {
+impl WaveField for FallbackField<'_> {
     fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
         for part in &self.0 {
             part.field.add(theta, phi, sums);
+        }
+    }
+
+    fn add_columns(&self, theta: &[f64], azimuths: &[f64], columns: &mut [Vec<AmplitudeMatrix>]) {
+        for part in &self.0 {
+            part.field.add_columns(theta, azimuths, columns);
         }
     }
 }

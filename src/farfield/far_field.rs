@@ -1,9 +1,8 @@
 //! The far field of one wavelength, asked for columns of a table or for single directions.
 
 use super::assignment::{Assignment, Method, Outcome, Thresholds};
-use super::azimuth::plane_set::PlaneSet;
+use super::azimuth::plane_set::{CHECKED_AZIMUTH, PlaneSet};
 use super::column::Column;
-use super::cross_check;
 use super::direction::Direction;
 use super::fallback::FallbackField;
 use super::forward::diffraction::ForwardDiffraction;
@@ -21,7 +20,7 @@ use std::f64::consts::{PI, TAU};
 
 /// The far field of one wavelength, ready to be asked for columns or single directions.
 pub struct FarField<'a> {
-    pub(crate) source: Source,
+    pub(crate) source: Source<'a>,
     assignment: Option<Assignment>,
     silhouette: ForwardDiffraction,
     pub(crate) size_parameter: f64,
@@ -29,10 +28,10 @@ pub struct FarField<'a> {
 }
 
 /// How amplitudes are found.
-pub(crate) enum Source {
+pub(crate) enum Source<'a> {
     Patches(PatchField),
     /// Scattering planes, and something else for the orders whose planes do not correspond.
-    Planes(Box<PlaneSet>, FallbackField),
+    Planes(Box<PlaneSet<'a>>, FallbackField<'a>),
 }
 
 impl<'a> FarField<'a> {
@@ -71,14 +70,12 @@ impl<'a> FarField<'a> {
 
         let orders = assignment.orders_of(Method::Planes);
         let of_planes = FarFieldSettings { orders: &orders, ..settings.clone() };
-        let planes = PlaneSet::new(tracer, &of_planes, &silhouette, &by);
+        let mut planes = PlaneSet::new(tracer, &of_planes, &silhouette, &by);
         let assignment = assignment.after(Outcome::Planes(&planes.outcomes()));
 
-        let doubted = if settings.checked { assignment.cross_checked() } else { Vec::new() };
-        let differences = cross_check::differences(&planes, tracer, &doubted, x, &by);
-        let assignment = assignment.after(Outcome::CrossCheck(&differences));
-
-        let planes = planes.only(&assignment.orders_of(Method::Planes));
+        for (order, share) in assignment.shares_of_sum() {
+            planes.scale(order, 1.0 - share);
+        }
         let fallback = FallbackField::new(tracer, waves, &assignment, settings);
         Self {
             source: Source::Planes(Box::new(planes), fallback),
@@ -97,7 +94,8 @@ impl<'a> FarField<'a> {
     /// Orders that neither planes nor partial waves could represent.
     pub fn irregular(&self) -> Vec<u32> {
         let of = |method| self.assignment.iter().flat_map(move |all| all.orders_of(method));
-        let mut orders: Vec<u32> = of(Method::Beams).chain(of(Method::Patches)).collect();
+        let mut orders: Vec<u32> =
+            of(Method::ComplexWavefront).chain(of(Method::Patches)).collect();
         orders.sort_unstable();
         orders
     }
@@ -105,14 +103,6 @@ impl<'a> FarField<'a> {
     /// `2πr/λ`.
     pub fn size_parameter(&self) -> f64 {
         self.size_parameter
-    }
-
-    /// Whether any azimuth can be asked for, and not only those that it was made for.
-    pub fn serves_any_azimuth(&self) -> bool {
-        match &self.source {
-            Source::Patches(..) => true,
-            Source::Planes(planes, _) => planes.serve_any_azimuth(),
-        }
     }
 
     /// The wave that goes straight on.
@@ -134,8 +124,8 @@ impl<'a> FarField<'a> {
     ///
     /// `S1 + S2` there is a trace, the same in the plane of every azimuth: that of a traced one is taken.
     pub fn straight_forward(&self) -> Option<AmplitudeMatrix> {
-        let Source::Planes(planes, _) = &self.source else { return None };
-        Some(self.scatter(&[(0.0, planes.checked_azimuth)], true)[0])
+        let Source::Planes(..) = &self.source else { return None };
+        Some(self.scatter(&[(0.0, CHECKED_AZIMUTH)], true)[0])
     }
 
     /// `S11` at scattering angles (ascending) of one azimuth in [0, π] as a table of patches has it:
@@ -217,6 +207,24 @@ impl<'a> FarField<'a> {
                 columns.into_iter().map(column).collect()
             }
         }
+    }
+
+    /// One order's amplitudes at scattering angles (ascending) of some azimuths in [0, π]; `None` where its wave
+    /// is not known by itself.
+    pub fn columns_of_order(
+        &self,
+        order: u32,
+        theta: &[f64],
+        azimuths: &[f64],
+    ) -> Option<Vec<Vec<AmplitudeMatrix>>> {
+        let Source::Planes(planes, fallback) = &self.source else { return None };
+        let of_waves = |all: &Assignment| all.orders_of(Method::PartialWaves).contains(&order);
+        if self.assignment.as_ref().is_some_and(of_waves) {
+            return None;
+        }
+        let mut columns = planes.columns_of(order, theta, azimuths);
+        fallback.add_order(order, theta, azimuths, &mut columns);
+        Some(columns)
     }
 
     /// Amplitudes in single directions `(θ, φ)`, with forward diffraction where asked.

@@ -5,7 +5,7 @@
 //! (`deflection`), cuts them at their landmarks into the segments of a `branch` with uniform formulas
 //! at folds, near the rim (`impact_integral`) and at the edge of the shadow (`forward`), interpolates
 //! them over `azimuth` and adds them up over the samples. Orders whose caustics are too disordered for
-//! that are sums of `gaussian_beams`, and those of small particles of `partial_waves`. The other, that
+//! that are sums on a complex wavefront (`complex_wavefront`), and those of small particles of `partial_waves`. The other, that
 //! of Sadeghi et al. 2012, is `patches`: sheets of rays cut into triangles on the sphere of directions,
 //! the interference of all that contain a direction, and diffraction by a Gaussian filter. `reference`
 //! is a brute-force sum that needs no asymptotics; `sphere_check` says what the method is worth. [`FarField`] is what the rest of the house uses.
@@ -22,8 +22,6 @@
 //!     orders: &[2],
 //!     tolerance: 0.01,
 //!     diffraction: false,
-//!     checked: false,
-//!     azimuths: &[0.0],
 //! };
 //! let field = FarField::meridians(&tracer, &settings);
 //! let at = |degrees: f64| field.scatter(&[(degrees.to_radians(), 0.0)], false)[0].s11();
@@ -34,6 +32,7 @@ pub mod assignment;
 mod azimuth;
 mod branch;
 mod column;
+mod complex_wavefront;
 mod cross_check;
 mod deflection;
 pub(crate) mod direction;
@@ -41,7 +40,6 @@ mod error_estimate;
 mod fallback;
 mod far_field;
 pub(crate) mod forward;
-mod gaussian_beams;
 mod impact_integral;
 mod partial_waves;
 pub(crate) mod patches;
@@ -53,11 +51,11 @@ mod wave_field;
 pub use azimuth::plane_set::{Piece, PlaneSet};
 pub use branch::knots::Kind;
 pub use column::Column;
+pub use complex_wavefront::{ComplexWavefront, PLACE, Place};
 pub use direction::Direction;
 pub use error_estimate::ErrorEstimate;
 pub use far_field::FarField;
 pub use forward::diffraction::ForwardDiffraction;
-pub use gaussian_beams::GaussianBeams;
 pub use partial_waves::PartialWaves;
 pub use patches::sheets::{Sheet, sheets};
 pub use reference::huygens_fresnel::{HuygensFresnel, Wave};

@@ -11,8 +11,4 @@ pub struct FarFieldSettings<'a> {
     pub tolerance: f64,
     /// Whether forward diffraction goes with order 0, joined by the edge wave.
     pub diffraction: bool,
-    /// Whether orders of flattened particles are checked against beams.
-    pub checked: bool,
-    /// Azimuths that will be asked for (radians); few of them are traced directly.
-    pub azimuths: &'a [f64],
 }

@@ -170,8 +170,6 @@ impl SphereCheck<'_> {
                     orders: self.orders,
                     tolerance: self.tolerance,
                     diffraction: diffraction && self.orders.contains(&0),
-                    checked: false,
-                    azimuths: &[0.0],
                 };
                 let (numbers, by) = ([x, self.tolerance], &self.thresholds);
                 let assignment = Assignment::as_if(*deformed, &tracer, self.orders, numbers, by)

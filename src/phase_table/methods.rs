@@ -26,6 +26,10 @@ pub struct MethodPart {
     pub expected_error: Option<f64>,
     /// Share of the light on the shadow that leaves in this order, by rays.
     pub share_of_light: Option<f64>,
+    /// Share of the light on the shadow that the order's amplitudes scatter, added up over the sphere: that of
+    /// its rays, and what tunnels at the rim, as far as the wave is right.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub share_scattered: Option<f64>,
     /// What stands for the method's plain form in some directions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub formulas: Vec<FormulaPart>,

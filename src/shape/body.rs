@@ -73,6 +73,15 @@ impl Shape {
         self.is_sphere() || self.down.x.abs() < 1e-12
     }
 
+    /// True when the body is known to look the same from below.
+    pub fn mirror_symmetry(&self) -> bool {
+        match &self.body {
+            Body::Sphere | Body::Spheroid(_) => true,
+            Body::Raindrop(drop) => drop.is_sphere(),
+            Body::Own(_) => false,
+        }
+    }
+
     /// The sun's elevation (radians) that the axis was laid for.
     pub fn sun_elevation(&self) -> f64 {
         self.down.z.atan2(-self.down.x)

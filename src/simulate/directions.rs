@@ -54,7 +54,8 @@ pub fn scatter_with_sections(
     let sections = CrossSections::new(plan, &far_field, index, absorbed);
     sections.validate()?;
     let treatment = Treatment { interference: true, filter, peak_apart: false };
-    let worth = worth(&far_field, plan, index, size_parameter, treatment)?;
+    let azimuths = some_azimuths(directions);
+    let worth = worth(&far_field, plan, index, size_parameter, treatment, &[], &azimuths)?;
     Ok(Seen { amplitudes: finite(amplitudes, directions)?, sections, worth })
 }
 
@@ -81,13 +82,23 @@ pub fn finite(
     }))
 }
 
+/// Some of the azimuths of directions, in [0, π].
+fn some_azimuths(directions: &[(f64, f64)]) -> Vec<f64> {
+    const MOST: usize = 5;
+    let folded = |&(_, phi): &(f64, f64)| phi.cos().acos();
+    let mut all: Vec<f64> = directions.iter().map(folded).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    let step = all.len().div_ceil(MOST).max(1);
+    all.into_iter().step_by(step).collect()
+}
+
 fn scatter_far_field<'a>(
     plan: &'a Plan,
     index: Complex64,
     size_parameter: f64,
     directions: &[(f64, f64)],
 ) -> (Vec<AmplitudeMatrix>, FarField<'a>) {
-    let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
-    let far_field = far_field(plan, index, size_parameter, &azimuths, plan.forward_diffraction);
+    let far_field = far_field(plan, index, size_parameter, plan.forward_diffraction);
     (far_field.scatter(directions, plan.forward_diffraction), far_field)
 }

@@ -73,7 +73,7 @@ pub(super) fn imbalance(
         return Ok(None);
     }
     let rotational = plan.symmetry == Symmetry::Rotational;
-    let Some(power) = scattered_power(far_field, rotational) else { return Ok(None) };
+    let power = scattered_power(far_field, rotational);
     let lost = (power / sections.scattering() - 1.0).abs();
     if lost <= plan.thresholds.most_power_lost {
         return Ok(Some(lost));

@@ -7,6 +7,7 @@
 
 use crate::farfield::FarField;
 use crate::math::gauss_legendre;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Nodes in cos θ per size parameter and beside: the pattern of a size parameter x is a polynomial of
@@ -16,13 +17,9 @@ const MORE: f64 = 40.0;
 /// Azimuths per half-turn.
 const AZIMUTHS: usize = 10;
 
-/// Scattering cross-section of a far field with its forward diffraction, in units of the squared radius;
-/// `None` where it can be asked at chosen azimuths only.
-pub fn scattered_power(far_field: &FarField, rotational: bool) -> Option<f64> {
+/// Scattering cross-section of a far field with its forward diffraction, in units of the squared radius.
+pub fn scattered_power(far_field: &FarField, rotational: bool) -> f64 {
     let x = far_field.size_parameter();
-    if !far_field.serves_any_azimuth() {
-        return None;
-    }
     let nodes = gauss_legendre::nodes((PER_SIZE * x + MORE) as usize);
     let azimuths = if rotational { 1 } else { AZIMUTHS };
     let azimuth = |j: usize| PI * (j as f64 + 0.5) / azimuths as f64;
@@ -32,7 +29,33 @@ pub fn scattered_power(far_field: &FarField, rotational: bool) -> Option<f64> {
     let found = far_field.scatter(&directions, true);
     let weights = nodes.iter().map(|(_, weight)| weight).cycle();
     let sum: f64 = found.iter().zip(weights).map(|(s, weight)| s.s11() * weight).sum();
-    Some(TAU / azimuths as f64 * sum / (x * x))
+    TAU / azimuths as f64 * sum / (x * x)
+}
+
+/// Angles and azimuths at which the power of an order is added up: its fringes are many more, and as often
+/// bright as dark.
+const ORDER_ANGLES: usize = 1440;
+const ORDER_AZIMUTHS: usize = 8;
+
+/// Scattering cross-sections of single orders without diffraction, in units of the squared radius, of those
+/// of some orders whose waves are known one by one.
+pub fn scattered_by_order(far_field: &FarField, orders: &[u32]) -> Vec<(u32, f64)> {
+    let x = far_field.size_parameter();
+    let (angles, azimuths) = (ORDER_ANGLES, ORDER_AZIMUTHS);
+    let step = PI / angles as f64;
+    let theta: Vec<f64> = (0..angles).map(|i| (i as f64 + 0.5) * step).collect();
+    let azimuth = |j: usize| PI * (j as f64 + 0.5) / azimuths as f64;
+    let azimuths: Vec<f64> = (0..azimuths).map(azimuth).collect();
+    let power = |&order: &u32| {
+        let columns = far_field.columns_of_order(order, &theta, &azimuths)?;
+        let sum: f64 = columns
+            .iter()
+            .flat_map(|column| column.iter().zip(&theta))
+            .map(|(s, theta)| s.s11() * theta.sin())
+            .sum();
+        Some((order, sum * step * TAU / azimuths.len() as f64 / (x * x)))
+    };
+    orders.par_iter().filter_map(power).collect()
 }
 
 #[cfg(test)]
@@ -56,13 +79,11 @@ mod tests {
             orders: &orders,
             tolerance: 0.01,
             diffraction: true,
-            checked: false,
-            azimuths: &[0.0],
         };
         let by = Thresholds::MEASURED;
         let assignment = Assignment::as_if(false, &tracer, &orders, [x, 0.01], &by);
         let far_field = FarField::assigned(&tracer, &settings, assignment);
-        let power = scattered_power(&far_field, true).unwrap();
+        let power = scattered_power(&far_field, true);
         // the same by another rule, far finer
         let step = PI / 40_000.0;
         let line: Vec<(f64, f64)> = (0..40_000).map(|i| ((i as f64 + 0.5) * step, 0.0)).collect();

@@ -55,7 +55,6 @@ fn changed(a: &(String, String, Vec<f32>), b: &(String, String, Vec<f32>)) -> [b
 fn words_attribute_and_field_change_together() {
     let measured = Thresholds::MEASURED;
     let small = "shape = \"spheroid\"\naxis_ratio = 0.9\nradius_mm = 0.02";
-    let drop = "shape = \"raindrop\"\nradius_mm = 0.8";
     let cases = [
         // partial waves → planes, by size
         (
@@ -71,10 +70,20 @@ fn words_attribute_and_field_change_together() {
             Thresholds { first_near_grazing_order: 4, ..measured },
             "Airy functions",
         ),
-        // planes → beams, by the difference between both
-        (drop, "[40]", Thresholds { gross_difference: 0.1, ..measured }, "beams differ by"),
-        // beams → patches, by tolerance
-        (drop, "[40]", Thresholds { beams_tolerance: 1e-3, ..measured }, "  Gaussian beams: "),
+        // planes → a sum on a complex wavefront, by deformation
+        (
+            "shape = \"raindrop\"\nradius_mm = 0.45",
+            "[40]",
+            Thresholds { wavefront: [[1e-4, 2e-4]; 4], ..measured },
+            "sum on a complex wavefront",
+        ),
+        // such a sum → patches, by size
+        (
+            "shape = \"raindrop\"\nradius_mm = 0.8",
+            "[40]",
+            Thresholds { wavefront_from: 1e6, ..measured },
+            "patches of rays",
+        ),
     ];
     for (particle, azimuths, moved, word) in cases {
         let scene = scene(particle, azimuths, "550");
@@ -112,8 +121,6 @@ fn error_of(order: u32, x: f64, index: f64) -> (f64, f64) {
         orders: &[order],
         tolerance: 0.01,
         diffraction: joined,
-        checked: false,
-        azimuths: &[0.0],
     };
     let assignment = Assignment::new(&tracer, &[order], x, 0.01, &Thresholds::MEASURED);
     let far_field = FarField::assigned(&tracer, &settings, assignment);

@@ -95,7 +95,7 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
 
 /// Two ranges of wavelengths.
 fn methods(index: usize) -> Vec<MethodPart> {
-    let method = if index < 2 { "rays of scattering planes" } else { "Gaussian beams" };
+    let method = if index < 2 { "rays of scattering planes" } else { "sum on a complex wavefront" };
     let part = MethodPart {
         order: Some(2),
         method: method.into(),

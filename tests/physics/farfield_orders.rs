@@ -33,14 +33,7 @@ fn rays_of(
 ) -> Vec<AmplitudeMatrix> {
     let last = orders.iter().copied().max().unwrap();
     let tracer = Tracer::new(shape, m, x, last).with_curved_interface(x);
-    let settings = FarFieldSettings {
-        size_parameter: x,
-        orders,
-        tolerance: 0.01,
-        diffraction,
-        checked: true,
-        azimuths: &[0.4],
-    };
+    let settings = FarFieldSettings { size_parameter: x, orders, tolerance: 0.01, diffraction };
     let far_field = FarField::meridians(&tracer, &settings);
     assert!(far_field.irregular().is_empty());
     let directions: Vec<(f64, f64)> = theta.iter().map(|&t| (t, 0.4)).collect();

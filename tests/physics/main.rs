@@ -7,7 +7,7 @@ mod absorption_against_mie;
 mod color_reference;
 mod dyed_drop;
 mod error_estimate;
-mod farfield_beams;
+mod farfield_complex_wavefront;
 mod farfield_huygens;
 mod farfield_orders;
 mod farfield_partial_waves;

@@ -17,16 +17,16 @@ fn plan_of(shape: Shape, order: u32) -> Plan {
 }
 
 /// A direction of light and one of scattering about a vertical axis.
-struct Path {
-    sun: f64,
-    theta: f64,
-    phi: f64,
+pub struct Path {
+    pub sun: f64,
+    pub theta: f64,
+    pub phi: f64,
 }
 
 impl Path {
-    /// The same path backwards. A body of revolution with a mirror plane does not change when it is
-    /// turned about its axis, so only the elevations and the scattering angle matter.
-    fn reversed(&self) -> Path {
+    /// The same path backwards. A body of revolution does not change when it is turned about its axis, so
+    /// only the elevations and the scattering angle matter.
+    pub fn reversed(&self) -> Path {
         // vertical component of the scattered direction: z·down = sin(sun), x·down = -cos(sun)
         let down =
             self.theta.cos() * self.sun.sin() - self.theta.sin() * self.phi.cos() * self.sun.cos();
@@ -42,6 +42,11 @@ impl Path {
             phi: -cos_phi.clamp(-1.0, 1.0).acos() * self.phi.sin().signum(),
         }
     }
+}
+
+/// What the amplitudes of the path backwards say about those of the path.
+pub fn turned(back: AmplitudeMatrix) -> AmplitudeMatrix {
+    AmplitudeMatrix { s1: back.s1, s2: back.s2, s3: -back.s4, s4: -back.s3 }
 }
 
 #[test]
@@ -70,8 +75,7 @@ fn reciprocity_of_a_spheroid() {
             };
             let (a, b) = (of(&direct), of(&back));
             size = size.max(a.s11().sqrt());
-            let turned = AmplitudeMatrix { s1: b.s1, s2: b.s2, s3: -b.s4, s4: -b.s3 };
-            difference = difference.max((a + turned * (-1.0).into()).s11().sqrt());
+            difference = difference.max((a - turned(b)).s11().sqrt());
         }
         println!(
             "p = {order}: reciprocity within {:.1e} of the largest amplitude",

@@ -13,6 +13,8 @@ pub struct Assigned {
     pub reasons: Vec<Reason>,
     /// Share of the amplitude by which the wave may be off.
     pub expected_error: f64,
+    /// Share of the amplitude that is a sum on a complex wavefront: 1 where that is the method.
+    pub share_of_sum: f64,
     /// What stands for single rays where; known once planes are traced.
     pub formulas: Vec<FormulaRange>,
 }
@@ -26,15 +28,6 @@ pub struct PlanesOutcome {
     pub found: Option<(Spacing, Vec<FormulaRange>)>,
 }
 
-/// How far an order's planes are from a second method: the largest share of the amplitude in a band.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
-    /// Number of chords.
-    pub order: u32,
-    /// Largest difference over the amplitude.
-    pub share: f64,
-}
-
 /// What turned out on trial.
 #[derive(Clone, Copy, Debug)]
 pub enum Outcome<'o> {
@@ -42,6 +35,4 @@ pub enum Outcome<'o> {
     RadialLines(&'o [u32]),
     /// Planes of orders, found or not.
     Planes(&'o [PlanesOutcome]),
-    /// Planes against beams.
-    CrossCheck(&'o [Difference]),
 }

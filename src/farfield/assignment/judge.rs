@@ -13,6 +13,8 @@ pub(super) struct Judge {
     pub size_parameter: f64,
     pub tolerance: f64,
     pub rotational: bool,
+    /// Whether the body looks the same from below.
+    pub mirror: bool,
     /// Whether small sizes are sums over partial waves.
     pub deformed: bool,
     /// Caustic disorder per order.
@@ -23,7 +25,17 @@ impl Judge {
     pub(super) fn first(&self, order: u32) -> Assigned {
         let limit = self.by.partial_waves_below;
         if order == 0 || !self.deformed || self.size_parameter >= limit {
-            return self.planes(order, Vec::new());
+            let share = self.share_of_sum(order);
+            if share >= 1.0 {
+                let [_, limit] = self.by.wavefront_disorder(order, self.mirror);
+                let reason = Reason::Disordered(self.decisive_disorder(order), limit);
+                return self.complex_wavefront(order, vec![reason]);
+            }
+            let mixed = (share > 0.0).then_some(Reason::Mixed(share));
+            let mut entry = self.planes(order, mixed.into_iter().collect());
+            entry.share_of_sum = share;
+            entry.expected_error += share * (self.error_of_wavefront(order) - entry.expected_error);
+            return entry;
         }
         let expected_error = self.by.error_of_partial_waves / self.size_parameter;
         let reasons = vec![Reason::Small(limit)];
@@ -49,40 +61,48 @@ impl Judge {
             entry.formulas.clone_from(formulas);
             return entry;
         }
-        let (order, limit) = (entry.order, self.by.hopeless_disorder);
-        let disorder = self.disorder_of(order);
-        let hopeless = self.by.is_hopeless(order, disorder);
-        let reason = if hopeless { Reason::Disordered(disorder, limit) } else { Reason::Unmatched };
-        self.without_planes(&entry, reason)
+        self.without_planes(&entry)
     }
 
-    pub(super) fn after_check(&self, mut entry: Assigned, difference: f64) -> Assigned {
-        let limit = self.by.gross_difference;
-        if difference > limit {
-            return self.without_planes(&entry, Reason::Differs(difference, limit));
-        }
-        entry.reasons.push(Reason::Agrees(difference));
-        entry
-    }
-
-    /// Beams, or patches for particles so small, or tolerances so coarse, that those do better. Order 0
-    /// stays with patches: its rays are strongest where launch points end, at the rim, which beams would
-    /// show as an edge that shines.
-    pub(super) fn without_planes(&self, entry: &Assigned, why: Reason) -> Assigned {
+    /// A sum on a complex wavefront, or patches for particles so small that it is too coarse. Reflection
+    /// stays with patches: its rays are strongest where launch points end, at the rim, which a sum over them
+    /// would show as an edge that shines.
+    fn without_planes(&self, entry: &Assigned) -> Assigned {
         let order = entry.order;
         let lost = entry.reasons.iter().filter(|reason| **reason == Reason::RadialLinesLost);
-        let mut reasons: Vec<Reason> = lost.copied().chain([why]).collect();
-        let (size, tolerance) = (self.by.beams_from, self.by.beams_tolerance);
+        let mut reasons: Vec<Reason> = lost.copied().chain([Reason::Unmatched]).collect();
         if order == 0 {
             reasons.push(Reason::Reflection);
             return self.patches(order, reasons);
         }
-        if !self.has_beams() {
-            reasons.push(Reason::CoarseEnough(size, tolerance));
+        if self.size_parameter < self.by.wavefront_from {
+            reasons.push(Reason::Small(self.by.wavefront_from));
             return self.patches(order, reasons);
         }
-        reasons.push(Reason::Fine(size, tolerance));
-        assigned(order, Method::Beams, reasons, self.by.error_of_beams * f64::from(order))
+        self.complex_wavefront(order, reasons)
+    }
+
+    fn complex_wavefront(&self, order: u32, reasons: Vec<Reason>) -> Assigned {
+        let expected_error = self.error_of_wavefront(order);
+        let entry = assigned(order, Method::ComplexWavefront, reasons, expected_error);
+        Assigned { share_of_sum: 1.0, ..entry }
+    }
+
+    /// What the wave next to the last ray misses falls like the width of the rim's edge, `x^(-1/3)`.
+    fn error_of_wavefront(&self, order: u32) -> f64 {
+        let by_order = self.by.error_of_wavefront;
+        let measured = by_order[(order as usize).min(by_order.len() - 1)];
+        (measured * (self.by.wavefront_measured_at / self.size_parameter).cbrt()).min(1.0)
+    }
+
+    /// Share of a sum on a complex wavefront in the wave of an order; the rest is that of scattering planes.
+    fn share_of_sum(&self, order: u32) -> f64 {
+        if order == 0 || self.rotational || self.size_parameter < self.by.wavefront_from {
+            return 0.0;
+        }
+        let [from, to] = self.by.wavefront_disorder(order, self.mirror);
+        let t = ((self.decisive_disorder(order) - from) / (to - from)).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
     }
 
     pub(super) fn patches(&self, order: u32, reasons: Vec<Reason>) -> Assigned {
@@ -91,24 +111,19 @@ impl Judge {
         assigned(order, Method::Patches, reasons, expected_error)
     }
 
-    pub(super) fn has_beams(&self) -> bool {
-        self.size_parameter >= self.by.beams_from && self.tolerance <= self.by.beams_tolerance
+    /// Whether planes of an order are compared with a sum.
+    pub(super) fn is_cross_checked(&self, order: u32) -> bool {
+        let [first, last] = self.by.cross_checked_orders;
+        let serves = !self.rotational && self.size_parameter >= self.by.wavefront_from;
+        serves
+            && (first..=last).contains(&order)
+            && self.disorder_of(order) > self.by.cross_checked_disorder
     }
 
-    /// Why no order is compared with beams, if none is.
-    pub(super) fn skips_check(&self) -> Option<String> {
-        let [_, last] = self.by.cross_checked_orders;
-        let (size, disorder) = (self.by.cross_checked_size, self.by.cross_checked_disorder);
-        let why = if self.rotational || self.disorder_of(last) <= disorder {
-            format!("rays up to order {last} stray no farther than {disorder} from a sphere's")
-        } else if self.size_parameter < size {
-            format!("the size parameter is below {size}")
-        } else if !self.has_beams() {
-            format!("the tolerance is above {}", self.by.beams_tolerance)
-        } else {
-            return None;
-        };
-        Some(format!("a cross-check by Gaussian beams: {why}"))
+    /// The disorder by which a sum takes over: of high orders, whose bows are all made at the same rim, that
+    /// of the first.
+    fn decisive_disorder(&self, order: u32) -> f64 {
+        self.disorder_of(order.min(self.by.first_high_order))
     }
 
     pub(super) fn disorder_of(&self, order: u32) -> f64 {
@@ -117,7 +132,7 @@ impl Judge {
 }
 
 fn assigned(order: u32, method: Method, reasons: Vec<Reason>, expected_error: f64) -> Assigned {
-    Assigned { order, method, reasons, expected_error, formulas: Vec::new() }
+    Assigned { order, method, reasons, expected_error, share_of_sum: 0.0, formulas: Vec::new() }
 }
 
 /// How far rays of an order stray from those of a sphere: order times deformation of the outline.

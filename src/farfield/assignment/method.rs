@@ -9,8 +9,8 @@ pub enum Method {
     Planes,
     /// [`crate::farfield::PartialWaves`].
     PartialWaves,
-    /// [`crate::farfield::GaussianBeams`].
-    Beams,
+    /// [`crate::farfield::ComplexWavefront`].
+    ComplexWavefront,
     /// [`crate::farfield::sheets`].
     Patches,
 }
@@ -21,7 +21,7 @@ impl Method {
         match self {
             Method::Planes => "rays of scattering planes",
             Method::PartialWaves => "partial waves from rays",
-            Method::Beams => "Gaussian beams",
+            Method::ComplexWavefront => "sum on a complex wavefront",
             Method::Patches => "patches of rays",
         }
     }
@@ -71,8 +71,8 @@ pub enum Spacing {
     One,
     /// At so many azimuths over a half-turn; others are interpolated.
     Even(usize),
-    /// At each azimuth that was asked for.
-    Asked,
+    /// At each azimuth, when it is asked for.
+    Single,
 }
 
 /// Why a method has an order, in the order in which it came about.
@@ -94,16 +94,10 @@ pub enum Reason {
     Unmatched,
     /// Rays stray farther than so much, here the second.
     Disordered(f64, f64),
-    /// Planes and beams were compared, and differ by no more than this share of the amplitude in a band.
-    Agrees(f64),
-    /// The same, more than is allowed, here the second.
-    Differs(f64, f64),
+    /// This share of the amplitude is that of a sum on a complex wavefront, which takes over.
+    Mixed(f64),
     /// Planes are traced there.
     Traced(Spacing),
-    /// Beams are fine enough from a size parameter on, and asked for up to a tolerance.
-    Fine(f64, f64),
-    /// Beams are not: the size parameter is below, or the tolerance above.
-    CoarseEnough(f64, f64),
 }
 
 impl fmt::Display for Reason {
@@ -121,24 +115,12 @@ impl fmt::Display for Reason {
             Reason::Disordered(disorder, limit) => {
                 write!(f, "rays stray {disorder:.3} from a sphere's, above {limit}")
             }
-            Reason::Agrees(share) => {
-                write!(f, "Gaussian beams agree within {:.0} %", 100.0 * share)
+            Reason::Mixed(share) => {
+                write!(f, "mixed with {:.0} % of a sum on a complex wavefront", 100.0 * share)
             }
-            Reason::Differs(share, limit) => write!(
-                f,
-                "planes and Gaussian beams differ by {:.0} %, above {:.0} %",
-                100.0 * share,
-                100.0 * limit
-            ),
             Reason::Traced(Spacing::One) => write!(f, "one plane stands for all"),
             Reason::Traced(Spacing::Even(count)) => write!(f, "interpolated from {count} planes"),
-            Reason::Traced(Spacing::Asked) => write!(f, "traced at each azimuth asked for"),
-            Reason::Fine(size, tolerance) => {
-                write!(f, "size parameter from {size} on, tolerance up to {tolerance}")
-            }
-            Reason::CoarseEnough(size, tolerance) => {
-                write!(f, "size parameter below {size} or tolerance above {tolerance}")
-            }
+            Reason::Traced(Spacing::Single) => write!(f, "traced azimuth by azimuth"),
         }
     }
 }

@@ -3,9 +3,13 @@
 //! Decided first by the scene alone: where few wavelengths fit into a deformed particle, all caustics of
 //! an order lie in one wave zone, and it is a sum over partial waves ([`crate::farfield::PartialWaves`]);
 //! else scattering planes serve ([`crate::farfield::PlaneSet`]). What turns out on trial is an [`Outcome`], a
-//! value, and [`Assignment::after`] makes the next assignment of it: orders whose planes do not match, or
-//! differ grossly from a second method, go to beams or patches. [`crate::farfield::FarField`] obeys. All
-//! numbers by which this goes are in the [`Thresholds`].
+//! value, and [`Assignment::after`] makes the next assignment of it: orders whose planes do not match are
+//! sums on a complex wavefront ([`crate::farfield::ComplexWavefront`]), reflection and the smallest particles
+//! go to patches. How far rays of an order stray from a sphere's grows with the order and with the deformation
+//! of the outline; from some of it on the order is such a sum at once, which asks nothing of its rays, and over
+//! a range before that it is mixed of both, so that nothing jumps where one takes over from the other.
+//! [`crate::farfield::FarField`] obeys. All numbers by which this goes are in the [`Thresholds`]; none of it
+//! depends on the directions asked for.
 //!
 //! ```
 //! use gonio::farfield::assignment::{Assignment, Method, Outcome, Thresholds};
@@ -25,7 +29,7 @@ mod judge;
 mod method;
 mod thresholds;
 
-pub use assigned::{Assigned, Difference, Outcome, PlanesOutcome};
+pub use assigned::{Assigned, Outcome, PlanesOutcome};
 pub(crate) use judge::caustic_disorder;
 pub use method::{Formula, FormulaRange, Method, Reason, Spacing};
 pub use thresholds::Thresholds;
@@ -67,6 +71,7 @@ impl Assignment {
             size_parameter,
             tolerance,
             rotational: tracer.shape().rotational_symmetry(),
+            mirror: tracer.shape().mirror_symmetry(),
             deformed,
             disorder: caustic_disorder(tracer, 1),
         };
@@ -107,13 +112,6 @@ impl Assignment {
                     None => entry,
                 }
             }
-            Outcome::CrossCheck(differences) => {
-                let of_it = differences.iter().find(|d| d.order == entry.order);
-                match of_it.filter(|_| entry.method == Method::Planes) {
-                    Some(difference) => judge.after_check(entry, difference.share),
-                    None => entry,
-                }
-            }
         };
         Self { entries: entries.into_iter().map(next).collect(), judge }
     }
@@ -140,16 +138,18 @@ impl Assignment {
         entry.map_or(0.0, |entry| entry.expected_error)
     }
 
-    /// Orders by planes that are to be compared with beams.
-    pub fn cross_checked(&self) -> Vec<u32> {
-        let judge = &self.judge;
-        if judge.skips_check().is_some() {
-            return Vec::new();
-        }
-        let [first, last] = judge.by.cross_checked_orders;
-        let strays = |order: &u32| judge.disorder_of(*order) > judge.by.cross_checked_disorder;
-        let orders = self.orders_of(Method::Planes).into_iter();
-        orders.filter(|order| (first..=last).contains(order)).filter(strays).collect()
+    /// Orders that are sums on a complex wavefront, all or in part, with that share of their amplitude.
+    pub fn shares_of_sum(&self) -> Vec<(u32, f64)> {
+        let shares = self.entries.iter().map(|entry| (entry.order, entry.share_of_sum));
+        shares.filter(|(_, share)| *share > 0.0).collect()
+    }
+
+    /// Orders by planes that are to be compared with such sums, with the share of their amplitude that planes
+    /// have.
+    pub fn cross_checked(&self) -> Vec<(u32, f64)> {
+        let planes = self.entries.iter().filter(|entry| entry.method == Method::Planes);
+        let doubted = planes.filter(|entry| self.judge.is_cross_checked(entry.order));
+        doubted.map(|entry| (entry.order, 1.0 - entry.share_of_sum)).collect()
     }
 
     /// What is left out, and why.
@@ -157,9 +157,6 @@ impl Assignment {
         let judge = &self.judge;
         let of = |method| !self.orders_of(method).is_empty();
         let mut skipped = Vec::new();
-        if of(Method::Planes) {
-            skipped.extend(judge.skips_check());
-        }
         if judge.deformed && !of(Method::PartialWaves) && of(Method::Planes) {
             let limit = judge.by.partial_waves_below;
             skipped.push(format!("partial waves: the size parameter is not below {limit}"));
@@ -183,6 +180,7 @@ impl Assignment {
             reason: words(&entry.reasons),
             expected_error: Some(entry.expected_error),
             share_of_light: Some(light.get(entry.order as usize).copied().unwrap_or(0.0)),
+            share_scattered: None,
             formulas: entry.formulas.iter().map(formula).collect(),
         };
         self.entries.iter().map(part).collect()
@@ -229,30 +227,36 @@ mod tests {
         let found = found.after(Outcome::Planes(&lost(&[0, 1])));
         assert_eq!(found.orders_of(Method::Patches), [0, 1]);
         assert_eq!([0, 1, 2].map(|order| found.error_of(order)), [0.07, 0.3, 2.0 / 200.0]);
-        let large = spheroid(0.9, 2000.0, 0.01, by).after(Outcome::Planes(&lost(&[0, 5])));
+        // reflection and, for so few wavelengths, every order stay with patches
+        let large = spheroid(0.95, 2000.0, 0.01, by).after(Outcome::Planes(&lost(&[0, 2])));
         assert_eq!(large.orders_of(Method::Patches), [0]);
-        assert_eq!(large.orders_of(Method::Beams), [5]);
-        let coarse = spheroid(0.9, 2000.0, 0.1, by).after(Outcome::Planes(&lost(&[5])));
-        assert_eq!(coarse.orders_of(Method::Patches), [5]);
-        assert!(coarse.entries()[3].reasons.contains(&Reason::CoarseEnough(1000.0, 0.03)));
+        assert_eq!(large.orders_of(Method::ComplexWavefront), [2, 5]);
+        assert!(large.entries()[2].reasons.contains(&Reason::Unmatched));
+        assert!(matches!(large.entries()[3].reasons[..], [Reason::Disordered(..)]));
     }
 
-    /// The comparison's outcome is a value; what follows from it is decided here.
+    fn shares(radius_mm: f64, elevation: f64) -> Vec<f64> {
+        let model = crate::shape::RaindropModel::BeardChuang1987;
+        let shape = Shape::raindrop(1e-3 * radius_mm, model, elevation.to_radians()).unwrap();
+        let tracer = Tracer::new(&shape, Complex64::new(1.33, 0.0), 5000.0, 5);
+        let orders = [0, 1, 2, 3, 4, 5];
+        let found = Assignment::new(&tracer, &orders, 5000.0, 0.01, &Thresholds::MEASURED);
+        found.entries().iter().map(|entry| entry.share_of_sum).collect()
+    }
+
+    /// The sum takes over little by little, with order and deformation.
     #[test]
-    fn gross_differences_go_to_beams() {
-        let found = spheroid(0.9, 10_000.0, 0.01, &Thresholds::MEASURED);
-        assert_eq!(found.cross_checked(), [1, 2]);
-        let differences =
-            [Difference { order: 1, share: 0.1 }, Difference { order: 2, share: 0.7 }];
-        let after = found.after(Outcome::CrossCheck(&differences));
-        assert_eq!(after.orders_of(Method::Planes), [0, 1, 5]);
-        assert_eq!(after.orders_of(Method::Beams), [2]);
-        assert!(after.entries()[1].reasons.contains(&Reason::Agrees(0.1)));
-        let small = spheroid(0.9, 5000.0, 0.01, &Thresholds::MEASURED);
-        assert!(small.cross_checked().is_empty());
-        assert!(small.skipped()[0].contains("6000"), "{:?}", small.skipped());
-        let round = spheroid(0.999, 10_000.0, 0.01, &Thresholds::MEASURED);
-        assert!(round.cross_checked().is_empty());
+    fn shares_of_the_sum_rise_with_order_and_deformation() {
+        assert_eq!(shares(0.45, 20.0), [0.0; 6]);
+        assert_eq!(shares(2.5, 20.0), [0.0, 1.0, 1.0, 1.0, 1.0, 1.0]);
+        // seen along its axis a drop is round, however flat
+        assert_eq!(shares(2.0, 90.0), [0.0; 6]);
+        for order in 1..6 {
+            let all: Vec<f64> =
+                (40..260).map(|r| shares(0.01 * f64::from(r), 20.0)[order]).collect();
+            assert!(all.windows(2).all(|w| w[1] >= w[0]), "{order}: {all:?}");
+            assert!(all.iter().any(|share| (0.02..0.98).contains(share)), "{order}: {all:?}");
+        }
     }
 
     /// Another threshold, another method and another reason.

@@ -3,7 +3,7 @@
 use super::azimuthal_smoothness::azimuthal_smoothness;
 use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
-use super::matching::{Traced, trace};
+use super::matching::{Traced, another, trace};
 use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 use crate::farfield::branch::samples::Side;
@@ -20,13 +20,13 @@ use std::f64::consts::{PI, TAU};
 
 /// Azimuth steps per half-turn, before refinement by the tolerance: for orders of plain rays and
 /// pairs, and for those with rim waves, whose phases change faster.
-const HALF_TURN_STEPS: usize = 40;
+const HALF_TURN_STEPS: usize = 44;
 const HALF_TURN_STEPS_RIM: usize = 60;
-/// Planes too rough over azimuth for interpolation are so many times more; if that does not help, those
-/// asked for are traced one by one.
+/// Planes too rough over azimuth for interpolation are so many times more; if that does not help, they
+/// say how planes are cut, and each that is asked for is traced by itself.
 const FINER: usize = 4;
 
-/// Segments of one order at azimuths `j π / (count - 1)`, or at the azimuths asked for.
+/// Segments of one order at azimuths `j π / (count - 1)`.
 pub(crate) struct OrderPlanes {
     pub order: u32,
     pub planes: Vec<Vec<Segment>>,
@@ -40,6 +40,8 @@ pub(crate) struct OrderPlanes {
     pub about_axis: Vec<Glory>,
     pub axis_gap: f64,
     pub azimuths: Azimuths,
+    /// Share of the order's amplitude that is left to it.
+    pub share: f64,
 }
 
 /// Where the planes stand.
@@ -49,8 +51,8 @@ pub(crate) enum Azimuths {
     Any,
     /// Even steps over a half-turn, both ends in.
     Even,
-    /// Exactly these, in [0, π], ascending.
-    Listed(Vec<f64>),
+    /// There as well, to be cut alike; any other is traced when it is asked for.
+    Single,
 }
 
 impl OrderPlanes {
@@ -61,38 +63,32 @@ impl OrderPlanes {
         edge: Option<&Penumbra>,
         by: &Thresholds,
     ) -> Option<Self> {
-        let azimuths = azimuths(tracer, settings);
-        let checked = order <= by.last_smoothed_order && matches!(azimuths, Azimuths::Even);
-        let at = |azimuths: Azimuths, finer: usize| {
-            Self::at(tracer, order, settings, edge, by, azimuths, finer)
-        };
-        let found = at(azimuths, 1)?;
+        let at = |finer: usize| Self::at(tracer, order, settings, edge, by, finer);
+        let found = at(1)?;
         let rough = |found: &Self| {
             azimuthal_smoothness(&found.planes, settings.size_parameter) > by.roughest
         };
-        if !checked || !rough(&found) {
+        let even = matches!(found.azimuths, Azimuths::Even);
+        if !even || order > by.last_smoothed_order || !rough(&found) {
             return Some(found);
         }
-        let listed = listed(settings);
-        if listed.len() > FINER * found.planes.len() {
-            let finer = at(Azimuths::Even, FINER);
-            if let Some(found) = finer.filter(|found| !rough(found)) {
-                return Some(found);
-            }
+        match at(FINER) {
+            Some(finer) if order == 0 || !rough(&finer) => Some(finer),
+            _ if order == 0 => Some(found),
+            _ => Some(Self { azimuths: Azimuths::Single, ..found }),
         }
-        at(Azimuths::Listed(listed), 1)
     }
 
-    /// With planes at these azimuths, `finer` times as many as usual where they are even.
+    /// With `finer` times as many planes as usual.
     fn at(
         tracer: &Tracer,
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
-        azimuths: Azimuths,
         finer: usize,
     ) -> Option<Self> {
+        let azimuths = azimuths(tracer);
         let centre = axial_ray(tracer, order);
         let high = by.is_high(order);
         let steps = finer * if high { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
@@ -103,7 +99,7 @@ impl OrderPlanes {
         } else if order < by.first_sparse_order {
             36.0
         } else {
-            16.0
+            20.0
         };
         let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
         let caustic_disorder = caustic_disorder(tracer, order);
@@ -114,8 +110,7 @@ impl OrderPlanes {
             let rim = rim_layout(by, tracer, order, x, caustic_disorder, gap)?;
             Some((Some(rim), gap))
         });
-        let serves = !by.is_hopeless(order, caustic_disorder);
-        let without = gaps.iter().filter(|_| serves).map(|&gap| (None, gap));
+        let without = gaps.iter().map(|&gap| (None, gap));
         let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = CutLayout {
@@ -148,8 +143,15 @@ impl OrderPlanes {
                 about_axis,
                 axis_gap,
                 azimuths,
+                share: 1.0,
             })
         })
+    }
+
+    /// Leave all but a share of the order's amplitude to another method.
+    pub(crate) fn scale(&mut self, share: f64) {
+        self.share *= share;
+        self.planes.iter_mut().flatten().for_each(|segment| segment.scale(share));
     }
 
     /// How many segments each plane has.
@@ -162,7 +164,7 @@ impl OrderPlanes {
         match self.azimuths {
             Azimuths::Any => Spacing::One,
             Azimuths::Even => Spacing::Even(self.planes.len()),
-            Azimuths::Listed(_) => Spacing::Asked,
+            Azimuths::Single => Spacing::Single,
         }
     }
 
@@ -203,6 +205,9 @@ impl OrderPlanes {
 
     /// Whether a segment reaches any of the samples on one side of its plane, at any azimuth.
     pub(crate) fn meets(&self, number: usize, theta: &[f64], side: Side) -> bool {
+        if matches!(self.azimuths, Azimuths::Single) {
+            return true;
+        }
         let (low, high) = self.spans[number];
         let (Some(&first), Some(&last)) = (theta.first(), theta.last()) else { return false };
         let (from, to) = if side == Side::Near { (first, last) } else { (-last, -first) };
@@ -210,15 +215,35 @@ impl OrderPlanes {
         ((high - from) / TAU).floor() >= ((low - to) / TAU).ceil()
     }
 
-    /// One segment at an azimuth in [0, π].
-    pub(crate) fn segment(&self, number: usize, azimuth: f64) -> Cow<'_, Segment> {
+    /// The plane of an azimuth, where each is traced by itself.
+    pub(crate) fn traced(&self, tracer: &Tracer, azimuth: f64) -> Option<Vec<Segment>> {
+        if !matches!(self.azimuths, Azimuths::Single) {
+            return None;
+        }
+        let mut plane = another(tracer, self.order, azimuth, &self.layout)?;
+        plane.iter_mut().for_each(|segment| segment.scale(self.share));
+        (plane.len() == self.segments_per_plane()).then_some(plane)
+    }
+
+    /// One segment at an azimuth in [0, π], of its plane where that was traced.
+    pub(crate) fn segment<'s>(
+        &'s self,
+        number: usize,
+        azimuth: f64,
+        traced: Option<&'s Vec<Segment>>,
+    ) -> Cow<'s, Segment> {
+        if let Some(plane) = traced {
+            return Cow::Borrowed(&plane[number]);
+        }
         match &self.azimuths {
             Azimuths::Any => Cow::Borrowed(&self.planes[0][number]),
-            Azimuths::Listed(list) => {
-                let k = list.partition_point(|&a| a < azimuth - 1e-9).min(list.len() - 1);
-                Cow::Borrowed(&self.planes[k][number])
-            }
             Azimuths::Even => Cow::Owned(self.interpolated(number, azimuth)),
+            // a plane that was lost is like its neighbour
+            Azimuths::Single => {
+                let last = self.planes.len() - 1;
+                let nearest = (azimuth / PI * last as f64).round() as usize;
+                Cow::Borrowed(&self.planes[nearest.min(last)][number])
+            }
         }
     }
 
@@ -301,32 +326,19 @@ fn rim_layout(
 ) -> Option<NearGrazingLayout> {
     let rotational = tracer.shape().rotational_symmetry();
     let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rotational)?;
-    Some(NearGrazingLayout::new(marks, rotational))
+    let round = rotational || caustic_disorder < by.nearly_round;
+    Some(NearGrazingLayout::new(marks, rotational, round))
 }
 
-/// The azimuths of all planes that the asked ones need: each column its own and that of the
-/// opposite side.
-fn listed(settings: &FarFieldSettings) -> Vec<f64> {
-    let mut list: Vec<f64> = settings.azimuths.iter().flat_map(|&a| [a, PI - a]).collect();
-    list.sort_by(f64::total_cmp);
-    list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-    list
-}
-
-fn azimuths(tracer: &Tracer, settings: &FarFieldSettings) -> Azimuths {
-    if tracer.shape().rotational_symmetry() {
-        return Azimuths::Any;
-    }
-    let list = listed(settings);
-    if list.len() <= HALF_TURN_STEPS { Azimuths::Listed(list) } else { Azimuths::Even }
+fn azimuths(tracer: &Tracer) -> Azimuths {
+    if tracer.shape().rotational_symmetry() { Azimuths::Any } else { Azimuths::Even }
 }
 
 impl Azimuths {
     fn places(&self, settings: &FarFieldSettings, half_turn_steps: usize) -> Vec<f64> {
         match self {
             Azimuths::Any => vec![0.0],
-            Azimuths::Listed(list) => list.clone(),
-            Azimuths::Even => {
+            Azimuths::Even | Azimuths::Single => {
                 let finer = (0.01 / settings.tolerance).powf(0.125).clamp(0.8, 2.0);
                 let steps = (half_turn_steps as f64 * finer).ceil() as usize;
                 (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()

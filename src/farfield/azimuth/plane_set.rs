@@ -2,12 +2,12 @@
 //!
 //! Scattering planes are traced at a few azimuths of one half-turn; the mirror plane gives the others. Where
 //! all planes of an order have the same landmarks, their segments vary smoothly with azimuth and
-//! any column is interpolated from eight neighbours. When few columns are asked for, their own
-//! planes are traced instead. Orders whose planes do not correspond (more than two rays
+//! any column is interpolated from eight neighbours; where they do not vary smoothly they say how planes are
+//! cut, and that of each column is traced. None of it depends on which are asked for. Orders whose planes do not correspond (more than two rays
 //! coalesce somewhere: cusps, umbilics) are told by `PlaneSet::outcomes`.
 
 use super::matching::another;
-use super::order_planes::{Azimuths, OrderPlanes};
+use super::order_planes::OrderPlanes;
 use crate::farfield::assignment::{PlanesOutcome, Thresholds};
 use crate::farfield::branch::accumulate::add_segment;
 use crate::farfield::branch::knots::{Kind, Segment};
@@ -23,12 +23,11 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// All planes of one wavelength.
-pub struct PlaneSet {
+pub struct PlaneSet<'a> {
+    tracer: Tracer<'a>,
     size_parameter: f64,
     orders: Vec<OrderPlanes>,
     edge: Option<Penumbra>,
-    /// The azimuth asked for that is about as far as can be from those traced.
-    pub(crate) checked_azimuth: f64,
     /// Orders whose planes do not correspond.
     unmatched: Vec<u32>,
 }
@@ -46,12 +45,12 @@ pub struct Piece {
 
 /// Where interpolation over azimuth is checked: off the even steps by nearly half of one, for both
 /// numbers of steps.
-const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
+pub(crate) const CHECKED_AZIMUTH: f64 = 0.3105 * PI;
 
-impl PlaneSet {
+impl<'a> PlaneSet<'a> {
     /// Trace all planes of a particle with this shadow.
     pub fn new(
-        tracer: &Tracer,
+        tracer: &Tracer<'a>,
         settings: &FarFieldSettings,
         shadow: &ForwardDiffraction,
         by: &Thresholds,
@@ -70,11 +69,13 @@ impl PlaneSet {
             traced_orders.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
         let orders = traced_orders.into_iter().filter_map(|f| f.1).collect();
         let edge = edge.filter(|_| !unmatched.contains(&0));
-        let off = |azimuth: &f64| (azimuth - CHECKED_AZIMUTH).abs();
-        let nearest = settings.azimuths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-        let checked_azimuth = nearest.copied().unwrap_or(CHECKED_AZIMUTH);
         let size_parameter = settings.size_parameter;
-        Self { size_parameter, orders, edge, checked_azimuth, unmatched }
+        Self { tracer: tracer.clone(), size_parameter, orders, edge, unmatched }
+    }
+
+    /// Circumference of the sphere of equal volume over the wavelength.
+    pub(crate) fn size_parameter(&self) -> f64 {
+        self.size_parameter
     }
 
     /// The edge wave, if diffraction and order 0 are joined.
@@ -92,38 +93,21 @@ impl PlaneSet {
         found.chain(lost).collect()
     }
 
-    /// Whether every order can be asked for at any azimuth.
-    pub(crate) fn serve_any_azimuth(&self) -> bool {
-        self.orders.iter().all(|planes| !matches!(planes.azimuths, Azimuths::Listed(_)))
+    /// Leave all but a share of an order's amplitude to another method.
+    pub(crate) fn scale(&mut self, order: u32, share: f64) {
+        let planes = self.orders.iter_mut().filter(|planes| planes.order == order);
+        planes.for_each(|planes| planes.scale(share));
     }
 
-    /// Some azimuths at which an order can be asked for.
-    pub(crate) fn some_azimuths(&self, order: u32, count: usize) -> Vec<f64> {
-        let place = |k: usize| (k as f64 + 0.31) / count as f64;
-        match self.orders.iter().find(|planes| planes.order == order).map(|planes| &planes.azimuths)
-        {
-            Some(Azimuths::Even) => (0..count).map(|k| PI * place(k)).collect(),
-            Some(Azimuths::Listed(list)) => {
-                let mut some: Vec<f64> =
-                    (0..count).map(|k| list[(place(k) * list.len() as f64) as usize]).collect();
-                some.dedup();
-                some
-            }
-            Some(Azimuths::Any) => vec![0.0],
-            None => Vec::new(),
-        }
-    }
-
-    /// Only these orders.
-    pub(crate) fn only(self, orders: &[u32]) -> Self {
-        let kept = self.orders.into_iter().filter(|planes| orders.contains(&planes.order));
-        Self { orders: kept.collect(), ..self }
-    }
-
-    /// One order's amplitudes at samples θ (ascending) of an azimuth in [0, π].
-    pub(crate) fn columns_of(&self, order: u32, theta: &[f64], phi: f64) -> Vec<AmplitudeMatrix> {
+    /// One order's amplitudes at samples θ (ascending) of some azimuths in [0, π].
+    pub(crate) fn columns_of(
+        &self,
+        order: u32,
+        theta: &[f64],
+        azimuths: &[f64],
+    ) -> Vec<Vec<AmplitudeMatrix>> {
         let orders = self.orders.iter().filter(|planes| planes.order == order);
-        self.columns_of_orders(orders, theta, &[phi]).swap_remove(0)
+        self.columns_of_orders(orders, theta, azimuths)
     }
 
     /// Amplitudes at samples θ (ascending) of some azimuths in [0, π], without forward diffraction.
@@ -142,16 +126,22 @@ impl PlaneSet {
         let samples = Samples::new(theta);
         let mut sums: Vec<Sums> = azimuths.iter().map(|_| Sums::new(&samples)).collect();
         for planes in orders.clone() {
+            // the plane of φ + π is the mirror image of that of π - φ
+            let traced = |azimuth: f64| planes.traced(&self.tracer, azimuth);
+            let both: Vec<_> = azimuths.iter().map(|&a| [traced(a), traced(PI - a)]).collect();
             for number in 0..planes.segments_per_plane() {
+                let asked = azimuths.iter().zip(&both);
                 let near = planes.meets(number, theta, Side::Near);
-                for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| near) {
-                    let segment = planes.segment(number, azimuth);
+                for (sums, (&azimuth, [traced, _])) in
+                    sums.iter_mut().zip(asked.clone()).filter(|_| near)
+                {
+                    let segment = planes.segment(number, azimuth, traced.as_ref());
                     add_segment(sums, &samples, &segment, Side::Near, x);
                 }
                 let far = planes.meets(number, theta, Side::Far);
-                for (sums, &azimuth) in sums.iter_mut().zip(azimuths).filter(|_| far) {
-                    // the plane of φ + π is the mirror image of that of π - φ
-                    let mut segment = planes.segment(number, PI - azimuth).into_owned();
+                for (sums, (&azimuth, [_, traced])) in sums.iter_mut().zip(asked).filter(|_| far) {
+                    let segment = planes.segment(number, PI - azimuth, traced.as_ref());
+                    let mut segment = segment.into_owned();
                     segment.mirror();
                     add_segment(sums, &samples, &segment, Side::Far, x);
                 }
@@ -175,10 +165,12 @@ impl PlaneSet {
     ) -> Vec<[Vec<AmplitudeMatrix>; 2]> {
         let samples = Samples::new(theta);
         let check = |planes: &OrderPlanes| {
-            let traced = another(tracer, planes.order, azimuth, &planes.layout.finer())?;
+            let mut traced = another(tracer, planes.order, azimuth, &planes.layout.finer())?;
+            traced.iter_mut().for_each(|segment| segment.scale(planes.share));
+            let single = planes.traced(tracer, azimuth);
             let mut sums = [Sums::new(&samples), Sums::new(&samples)];
             for (number, segment) in traced.iter().enumerate() {
-                let interpolated = planes.segment(number, azimuth);
+                let interpolated = planes.segment(number, azimuth, single.as_ref());
                 for (sums, segment) in sums.iter_mut().zip([interpolated.as_ref(), segment]) {
                     add_segment(sums, &samples, segment, Side::Near, self.size_parameter);
                 }
@@ -216,7 +208,7 @@ impl PlaneSet {
     }
 }
 
-impl WaveField for PlaneSet {
+impl WaveField for PlaneSet<'_> {
     fn add(&self, theta: &[f64], phi: f64, sums: &mut [AmplitudeMatrix]) {
         let column = self.columns(theta, &[phi]).swap_remove(0);
         sums.iter_mut().zip(column).for_each(|(sum, wave)| *sum += wave);

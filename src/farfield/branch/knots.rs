@@ -185,6 +185,17 @@ pub struct Segment {
 }
 
 impl Segment {
+    /// Its waves, multiplied by a share.
+    pub(crate) fn scale(&mut self, share: f64) {
+        let first = match self.kind {
+            Kind::Plain { .. } | Kind::Wave => SINGLE,
+            Kind::Pair { .. } => PAIR,
+        };
+        for knot in &mut self.knots {
+            knot.0[first..first + 2 * ELEMENTS].iter_mut().for_each(|value| *value *= share);
+        }
+    }
+
     /// Its image in the mirror plane.
     pub(crate) fn mirror(&mut self) {
         let parity = self.kind.parity();

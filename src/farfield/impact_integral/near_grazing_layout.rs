@@ -31,13 +31,14 @@ pub struct NearGrazingLayout {
 const KNOTS_PER_PERIOD: f64 = 4.0;
 
 impl NearGrazingLayout {
-    /// A layout without knots yet. Where nothing depends on azimuth, path and angles are analytic in
-    /// the launch point to the rim and beyond; else only nearly so, and low degrees must do.
-    pub fn new([start, full, bow]: [f64; 3], rotational: bool) -> Self {
-        let degree = if rotational { RAYS - 1 } else { 5 };
+    /// A layout without knots yet. Where nothing depends on azimuth, or next to nothing on nearly round bodies,
+    /// path and angles are analytic in the launch point to the rim and beyond; else only nearly so, and low
+    /// degrees must do.
+    pub fn new([start, full, bow]: [f64; 3], rotational: bool, round: bool) -> Self {
+        let degree = if round { RAYS - 1 } else { 5 };
         // the last rays meet the surface so flatly that their differentials lose digits, and on
         // deformed particles path and angles have a part there that is odd in the grazing angle
-        let spare = if rotational { 0.002 } else { 0.02 };
+        let spare = if round { 0.002 } else { 0.02 };
         Self { start, full, bow, knots: Vec::new(), degree, spare, rotational }
     }
 
@@ -265,7 +266,7 @@ mod tests {
 
     #[test]
     fn twice_the_knots_are_half_as_far() {
-        let mut layout = NearGrazingLayout::new([0.7, 0.8, 0.9], true);
+        let mut layout = NearGrazingLayout::new([0.7, 0.8, 0.9], true, true);
         layout.knots = vec![vec![[0.0, 1.0], [0.4, 3.0], [1.0, 2.0]]];
         let finer = layout.finer();
         assert_eq!(

@@ -47,7 +47,8 @@ pub fn taper(
     const FEWEST_ZONES: f64 = 5.0;
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
-    let b = bow(index, order).filter(|_| by.near_grazing_serves(index, order, rotational))?;
+    let serves = by.near_grazing_serves(index, order, rotational, caustic_disorder);
+    let b = bow(index, order).filter(|_| serves)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
     let mut full = b - AIRY_WIDTHS * airy - caustic_disorder;
