@@ -19,6 +19,7 @@
 //! # Ok::<(), gonio::shape::ShapeError>(())
 //! ```
 
+mod axis_ratio;
 mod body;
 mod error;
 mod level;
@@ -32,6 +33,7 @@ mod sphere;
 mod spheroid;
 mod tangent;
 
+pub use axis_ratio::AxisRatioLaw;
 pub(crate) use body::Body;
 pub use body::Shape;
 pub use error::ShapeError;

@@ -65,6 +65,14 @@ impl RaindropModel {
             .collect()
     }
 
+    /// Radius up to which drops are spheres, metres; `None` where all are flattened.
+    pub fn sphere_up_to(self) -> Option<f64> {
+        match self {
+            Self::BeardChuang1987 => Some(SPHERE_UP_TO),
+            Self::ChuangBeard1990 => None,
+        }
+    }
+
     /// Coefficients `c_n` at a radius of equal volume (metres) inside the model's range.
     pub fn coefficients(self, radius: f64) -> Result<Vec<f64>, ShapeError> {
         let (from, to) = self.radius_range();
