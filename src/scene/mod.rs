@@ -9,7 +9,6 @@
 //! # Ok::<(), gonio::scene::SceneError>(())
 //! ```
 
-mod amount;
 mod choice;
 mod error;
 mod file;
@@ -25,7 +24,6 @@ mod sizes;
 mod tests;
 mod validate;
 
-pub use amount::Amount;
 pub use choice::{AxisRatioKey, CantingKeys, Choice, Named, OrientationKey, ShapeName};
 // Batches use them, and batches need HDF5.
 pub use crate::math::bytes::human_bytes;
@@ -34,7 +32,7 @@ pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::Grid;
-pub use modes::Mode;
+pub use modes::{Amount, Mode};
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
 pub(crate) use read::{line_at, read_limited};

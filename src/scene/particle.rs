@@ -77,7 +77,8 @@ pub(super) fn size_distribution(
     let checked = sizes.checked(folder).map_err(|accepted| sizes_error(keys, accepted))?;
     let (from, to) = checked.bounds();
     let sphere = keys.shape == Some(Choice(ShapeName::Sphere));
-    if !sphere && !(from > 0.0 && to.is_finite()) && !sizes.is_delta() {
+    let bounded = from > 0.0 && to.is_finite();
+    if !(sphere || bounded || sizes.is_delta()) {
         let accepted = "drops that are no spheres need both limits, such as from_radius_mm = 0.1, \
                         to_radius_mm = 1.5";
         return Err(sizes_error(keys, accepted));

@@ -1,11 +1,10 @@
 //! From keys as written to a `Scene` that physics can rely on.
 
-use super::amount::amount;
 use super::choice::{Choice, Named, ShapeName, chosen};
 use super::error::SceneError;
 use super::file::{ParticleKeys, SceneFile};
 use super::grid::Grid;
-use super::modes::{Mode, modes};
+use super::modes::{Mode, amount, modes};
 use super::particle::is_by_rays;
 use super::{Diffraction, Interference, Method, Orders, Orientation, Particle, Scene, SunDisc};
 use crate::medium::{MediumSpec, wavelength_of_ghz};
@@ -318,7 +317,8 @@ impl Scene {
             return refuse("table.forward_peak", self.forward_peak.name().into(), accepted);
         }
         // Within orders is what drops of the same scene take; to a mean of the exact series it says nothing.
-        let told = self.interference == Interference::WithinOrders && !alone;
+        let told = self.interference == Interference::WithinOrders
+            && (!alone || self.size_distribution.is_some());
         if self.interference != Interference::Waves && !told {
             let accepted = "an exact series adds waves; method = \"rays\" can leave that out";
             return refuse("model.interference", self.interference.name().into(), accepted);

@@ -19,7 +19,6 @@
 //! # Ok::<(), gonio::shape::ShapeError>(())
 //! ```
 
-mod axis_ratio;
 mod body;
 mod error;
 mod level;
@@ -33,11 +32,10 @@ mod sphere;
 mod spheroid;
 mod tangent;
 
-pub use axis_ratio::AxisRatioLaw;
 pub(crate) use body::Body;
 pub use body::Shape;
 pub use error::ShapeError;
 pub use own::{Outline, OwnBody};
-pub use raindrop::RaindropModel;
+pub use raindrop::{AxisRatioLaw, RaindropModel};
 pub use silhouette::Silhouette;
 pub(crate) use tangent::Tangent;

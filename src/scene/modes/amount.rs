@@ -1,7 +1,7 @@
 //! The section `[amount]`: how many particles a volume holds.
 
-use super::error::SceneError;
-use super::file::AmountKeys;
+use crate::scene::error::SceneError;
+use crate::scene::file::AmountKeys;
 
 /// How many particles a volume of air holds, by what is known of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +25,7 @@ const MM_H: f64 = 1e-3 / 3600.0;
 
 /// # Errors
 /// A number that is not accepted, or two that may contradict each other.
-pub(super) fn amount(keys: &AmountKeys) -> Result<Option<Amount>, SceneError> {
+pub(in crate::scene) fn amount(keys: &AmountKeys) -> Result<Option<Amount>, SceneError> {
     let given: Vec<(&str, f64, (f64, f64), Amount)> = [
         keys.rain_rate_mm_h
             .map(|v| ("amount.rain_rate_mm_h", v, RAIN_RATES, Amount::RainRate(v * MM_H))),

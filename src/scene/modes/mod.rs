@@ -4,6 +4,11 @@
 //! fractions of the number, for means are means per particle; particles count that lie inside the limits of
 //! their distributions.
 
+mod amount;
+
+pub use amount::Amount;
+pub(super) use amount::amount;
+
 use super::choice::AxisRatioKey;
 use super::error::SceneError;
 use super::file::{ModeKeys, ParticleKeys, SceneFile};

@@ -8,13 +8,17 @@
 //! deformation shrinks with the square of the radius, as balance of pressure and surface tension
 //! asks for small drops.
 
+mod axis_ratio;
+
+pub use axis_ratio::AxisRatioLaw;
+
 use super::error::ShapeError;
 use super::level::{Level, Slope};
 use crate::math::scalar::Scalar;
 use std::f64::consts::PI;
 
-const BEARD_CHUANG_1987: &str = include_str!("../../data/drops/raindrop_beard_chuang_1987.csv");
-const CHUANG_BEARD_1990: &str = include_str!("../../data/drops/raindrop_chuang_beard_1990.csv");
+const BEARD_CHUANG_1987: &str = include_str!("../../../data/drops/raindrop_beard_chuang_1987.csv");
+const CHUANG_BEARD_1990: &str = include_str!("../../../data/drops/raindrop_chuang_beard_1990.csv");
 
 /// Radius up to which the 1987 model takes a drop for a sphere (Sadeghi et al. 2012, Table I).
 const SPHERE_UP_TO: f64 = 0.4e-3;
