@@ -32,6 +32,9 @@ pub struct Tabulator<'a> {
     pub shadow_area: f64,
     /// Share of the scattered power that is in no order of the table: what Σ P·ΔΩ lacks to 1.
     pub left_out: f64,
+    /// Whether the forward peak is scaled until the samples of a whole sphere add up: else that is left to
+    /// whoever sums several slabs.
+    pub closes: bool,
     /// [`Thresholds::peak_edge`](crate::farfield::assignment::Thresholds::peak_edge).
     pub peak_edge: f64,
 }
@@ -250,7 +253,7 @@ impl Tabulator<'_> {
         let covers_sphere = {
             let sum = |weights: &[f64]| weights.iter().sum::<f64>();
             let total = sum(theta_weights) * sum(phi_weights);
-            (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
+            self.closes && (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
         };
         let diffracts = self.diffraction.is_some();
         let share = if diffracts { self.shadow_area / self.scattering } else { 0.0 };
@@ -350,7 +353,7 @@ fn ring_powers(values: &Array3<f32>, phi_weights: &[f64]) -> Vec<f64> {
 }
 
 /// Mean cosine of the scattering angle over the samples.
-fn asymmetry(
+pub fn asymmetry(
     values: &Array3<f32>,
     (theta_weights, phi_weights): (&[f64], &[f64]),
     theta: &[f64],
