@@ -30,7 +30,7 @@
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
 //! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
-//! `farfield`, [`radar`] · `series`, `export` · `hdf5` · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
+//! `farfield`, [`radar`] · `series`, `export` · `hdf5`, [`population`] · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
 //! `medium`, `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
 //!
 //! Features, all on by default: `hdf5` (tables as files, exports, batches; brings C code), `cli` (the program),
@@ -54,6 +54,8 @@ pub mod trace;
 
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
+pub mod population;
+
 pub mod series;
 
 #[cfg(feature = "hdf5")]

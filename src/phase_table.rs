@@ -16,6 +16,7 @@
 
 mod averaging;
 mod bodies;
+mod bulk_optics;
 mod invalid;
 mod methods;
 mod plain;
@@ -23,6 +24,7 @@ mod validate;
 
 pub use averaging::{Averaging, DiscOfSun};
 pub use bodies::Bodies;
+pub use bulk_optics::BulkOptics;
 pub use invalid::InvalidTable;
 pub use methods::{FormulaPart, MethodPart, MethodRange};
 

@@ -28,7 +28,7 @@ pub use t_matrix::amplitude_tolerance;
 
 use crate::farfield::assignment::Thresholds;
 use crate::math::digits::to_digits;
-use crate::scene::{Diffraction, Method, Orders, Orientation, Particle, Scene};
+use crate::scene::{Diffraction, Interference, Method, Orders, Orientation, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
@@ -95,6 +95,8 @@ pub struct Plan {
     pub spokes: usize,
     /// What was decided and why, one sentence each.
     pub reasons: Vec<String>,
+    /// Of several kinds of particles the plan of each; what stands above is then of the first.
+    pub parts: Vec<Plan>,
 }
 
 impl Plan {
@@ -112,7 +114,32 @@ impl Plan {
     /// # Errors
     /// As [`Plan::new`].
     pub fn by(scene: &Scene, thresholds: Thresholds) -> Result<Self, PlanError> {
-        let (shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
+        if scene.modes.is_empty() {
+            return Self::of_one_kind(scene, thresholds);
+        }
+        let plans = scene.parts().into_iter().map(|part| Self::of_one_kind(&part, thresholds));
+        let parts: Vec<Self> = plans.collect::<Result<_, _>>()?;
+        let rotational = parts.iter().all(|part| part.symmetry == Symmetry::Rotational);
+        let of_kind = |(place, part): (usize, &Plan)| {
+            let sentence = move |reason: &String| format!("particles[{}]: {reason}", place + 1);
+            part.reasons.iter().map(sentence).collect::<Vec<_>>()
+        };
+        let reasons = parts.iter().enumerate().flat_map(of_kind).collect();
+        let symmetry = if rotational { Symmetry::Rotational } else { Symmetry::Mirror };
+        Ok(Self { symmetry, reasons, ..parts[0].clone() }.with_parts(parts))
+    }
+
+    fn with_parts(self, parts: Vec<Self>) -> Self {
+        Self { parts, ..self }
+    }
+
+    fn of_one_kind(scene: &Scene, thresholds: Thresholds) -> Result<Self, PlanError> {
+        let (mut shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
+        if let Some(sizes) = scene.size_distribution.as_ref().filter(|_| !is_ball(scene)) {
+            // of many sizes the largest says whether they are spheres
+            let largest = scene.particle_with_radius(sizes.bounds().1);
+            shape = self::shape(&largest, scene.sun_elevation)?.0;
+        }
         let mut reasons = Vec::new();
         let engine = engine(scene, &shape, radius, &thresholds, &mut reasons)?;
         let random = scene.orientation == Orientation::Random;
@@ -128,7 +155,17 @@ impl Plan {
             .map(|&w| scene.medium.index(w))
             .collect::<Result<Vec<_>, _>>()?;
         if !engine.is_exact() {
-            check_particle(scene, radius, &indices, &thresholds, &mut reasons)?;
+            let smallest =
+                scene.size_distribution.as_ref().map_or(radius, |sizes| sizes.bounds().0);
+            check_particle(scene, smallest, &indices, &thresholds, &mut reasons)?;
+        }
+        let share = scene.size_distribution.as_ref().map_or(1.0, |sizes| sizes.share_inside());
+        if share < ALL_INSIDE {
+            reasons.push(format!(
+                "the limits of the sizes leave out {:.3} % of the number of particles; what is said per \
+                 particle is per particle inside",
+                100.0 * (1.0 - share)
+            ));
         }
         if indices.iter().all(|i| i.im == 0.0) {
             reasons.push("absorption is skipped: k = 0 at every wavelength".into());
@@ -151,6 +188,7 @@ impl Plan {
             rings,
             spokes: 2 * rings,
             reasons,
+            parts: Vec::new(),
         })
     }
 
@@ -181,6 +219,7 @@ impl Plan {
             rings,
             spokes: 2 * rings,
             reasons,
+            parts: Vec::new(),
         }
     }
 
@@ -211,6 +250,13 @@ impl Plan {
         let places = table.iter().map(|&phi| place(phi)).collect();
         (unique, places)
     }
+}
+
+/// Share of the number of particles inside the limits of their sizes from which on nothing is said.
+const ALL_INSIDE: f64 = 0.99999;
+
+fn is_ball(scene: &Scene) -> bool {
+    matches!(scene.particle, Particle::Sphere { .. })
 }
 
 /// The shape of a particle and its radius of equal volume (metres).
@@ -258,7 +304,8 @@ fn engine(
         }
         Method::Auto if t_matrix::takes(scene, shape, radius, by, reasons)? => Engine::TMatrix,
         Method::Auto | Method::Rays => {
-            if scene.interference && scene.diffraction == Diffraction::Airy {
+            let waves = scene.interference != Interference::Powers;
+            if waves && scene.diffraction == Diffraction::Airy {
                 Engine::Meridians
             } else {
                 reasons.push(

@@ -29,6 +29,7 @@
 
 mod cross_sections;
 mod directions;
+mod drops;
 mod energy;
 mod error;
 mod header;
@@ -37,6 +38,7 @@ mod t_matrix;
 
 pub use cross_sections::CrossSections;
 pub use directions::{Seen, finite, scatter, scatter_with_sections};
+pub use drops::{Steps, steps_of_kinds};
 pub use energy::adds_up;
 pub use error::SimulateError;
 pub use header::header;
@@ -45,9 +47,10 @@ use crate::farfield::assignment::{Assignment, Method};
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{ErrorEstimate, FarField, FarFieldSettings};
-use crate::phase_table::{Axes, ForwardPeak, PhaseTable, Slab, TableHeader};
+use crate::phase_table::{Axes, ForwardPeak, InvalidTable, PhaseTable, Slab, TableHeader};
 use crate::plan::{Engine, Plan};
-use crate::scene::{Diffraction, Scene};
+use crate::population;
+use crate::scene::{Diffraction, Interference, Scene};
 use crate::series::SeriesError;
 use crate::series::debye::Term;
 use crate::series::mean::MeanError;
@@ -74,12 +77,13 @@ pub fn simulate<E: From<SimulateError>>(
 ) -> Result<(), E> {
     let plan = Plan::new(scene).map_err(SimulateError::from)?;
     let header = header(scene, String::new())?;
+    let steps = drops::steps_of_kinds(scene, &plan)?;
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::sync_channel(1);
-        let header = &header;
+        let (header, steps) = (&header, &steps);
         scope.spawn(move || {
             for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-                let slab = checked_slab(scene, &plan, header, wavelength);
+                let slab = checked_slab(scene, &plan, steps, header, wavelength);
                 let failed = slab.is_err();
                 if sender.send((i, slab)).is_err() || failed {
                     return;
@@ -110,21 +114,36 @@ pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
 /// A wavelength outside the medium's data, an energy budget that does not add up, or a slab that
 /// [`Slab::validate`] refuses.
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
-    checked_slab(scene, plan, &header_of(scene, plan, String::new()), wavelength)
+    let steps = drops::steps_of_kinds(scene, plan)?;
+    checked_slab(scene, plan, &steps, &header_of(scene, plan, String::new()), wavelength)
 }
 
 fn checked_slab(
     scene: &Scene,
     plan: &Plan,
+    steps: &[Option<Steps>],
     header: &TableHeader,
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
-    let slab = computed_slab(scene, plan, wavelength)?;
+    let slab = if plan.parts.is_empty() {
+        computed_slab(scene, plan, steps[0].as_ref(), wavelength)?
+    } else {
+        of_all_kinds(scene, plan, steps, wavelength)?
+    };
     slab.validate(header, 0.0)?;
     Ok(slab)
 }
 
-fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
+/// The slab of one kind of particles; `steps` are there for many drops by rays.
+fn computed_slab(
+    scene: &Scene,
+    plan: &Plan,
+    steps: Option<&Steps>,
+    wavelength: f64,
+) -> Result<Slab, SimulateError> {
+    if let Some(steps) = steps {
+        return drops::slab(scene, plan, steps, wavelength);
+    }
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
         let slab = series_slab(scene, plan, wavelength)?;
@@ -148,7 +167,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, places) = plan.computed_azimuths(&azimuths);
     let treatment = Treatment {
-        interference: scene.interference,
+        interference: scene.interference != Interference::Powers,
         filter: (scene.diffraction == Diffraction::Gaussian)
             .then(|| gaussian_filter::standard_deviation(plan.radius)),
         peak_apart: scene.forward_peak == ForwardPeak::Separate,
@@ -169,10 +188,11 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         scattering: sections.scattering(),
         shadow_area: far_field.silhouette().area() + beyond,
         left_out,
+        closes: true,
         peak_edge: plan.thresholds.peak_edge,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
-    let Values { values, caustic_order, sum_before_peak, peak_share, asymmetry } =
+    let Values { values, caustic_order, sum_before_peak, peak_change, peak_share, asymmetry } =
         tabulator.tabulate(&far_field, &computed, &places, &axes);
     let error_estimate = if plan.checked {
         let powers = order_powers(plan, &far_field, index, &budget)?;
@@ -187,6 +207,7 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         Some(lost) => error_estimate.at_least(lost),
         None => error_estimate,
     };
+    let error_estimate = error_estimate.and(peak_change.weighted, &peak_change.by_direction);
     let known = !error_estimate.weighted.is_nan();
     let tolerance_met = known.then_some(error_estimate.weighted <= scene.tolerance);
     Ok(Slab {
@@ -210,6 +231,24 @@ fn computed_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, Si
         left_out,
         methods,
         tolerance_met,
+    })
+}
+
+/// The sum of several kinds of particles.
+fn of_all_kinds(
+    scene: &Scene,
+    plan: &Plan,
+    steps: &[Option<Steps>],
+    wavelength: f64,
+) -> Result<Slab, SimulateError> {
+    let mut sum = population::Sum::default();
+    let kinds = scene.parts().into_iter().zip(&plan.parts).zip(steps);
+    for (((part, plan), steps), share) in kinds.zip(scene.number_shares()) {
+        sum.add(&computed_slab(&part, plan, steps.as_ref(), wavelength)?, share);
+    }
+    sum.slab(scene.tolerance).ok_or_else(|| {
+        let (field, value) = ("particles".into(), "none".into());
+        SimulateError::Wrong(InvalidTable { field, value, accepted: "at least one kind".into() })
     })
 }
 

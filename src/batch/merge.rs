@@ -166,7 +166,9 @@ fn coordinate<'a>(
         "particle.density_kg_m3" => ("density_kg_m3", "kg m-3", 1.0),
         sizes if sizes.starts_with("particle.size_distribution.") => {
             let name = sizes.rsplit('.').next().unwrap_or(sizes);
-            (name, if name.ends_with("_um") { "um" } else { "1" }, 1.0)
+            let unit =
+                ["um", "mm", "nm"].into_iter().find(|unit| name.ends_with(&format!("_{unit}")));
+            (name, unit.unwrap_or("1"), 1.0)
         }
         "light.sun_elevation_deg" => ("sun_elevation", "degree", 1.0),
         other => (other.rsplit('.').next().unwrap_or(other), "1", 1.0),

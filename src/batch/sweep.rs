@@ -131,12 +131,13 @@ impl Sweep {
 /// The key whose table may hold lists too: a sweep over effective radii, say, in one distribution.
 const SIZES: &str = "particle.size_distribution";
 /// Its lists that are data and not swept.
-const DATA: [&str; 3] = ["edges_radius_um", "number", "file"];
+const DATA: [&str; 2] = ["number", "file"];
 
 /// The axes within a distribution of sizes.
 fn distribution_axes(distribution: &Table) -> Result<Vec<Axis>, BatchError> {
     let mut axes = Vec::new();
-    for (key, value) in distribution.iter().filter(|(key, _)| !DATA.contains(&key.as_str())) {
+    let is_data = |key: &str| DATA.contains(&key) || key.starts_with("edges_");
+    for (key, value) in distribution.iter().filter(|(key, _)| !is_data(key)) {
         let dotted = format!("{SIZES}.{key}");
         if let Some(values) = swept_values(&dotted, value)? {
             axes.push(Axis { keys: vec![dotted], values: vec![values] });

@@ -6,8 +6,8 @@ use crate::fault::{Blame, Fault};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::plan::{Plan, PlanError};
 use crate::scene::{
-    Choice, Diffraction, Grid, Method, Orders, Particle, Scene, SceneError, SceneFile, SceneText,
-    ShapeName,
+    Choice, Diffraction, Grid, Interference, Method, Orders, Particle, Scene, SceneError,
+    SceneFile, SceneText, ShapeName,
 };
 use crate::simulate::{self, SimulateError};
 use std::path::Path;
@@ -136,7 +136,10 @@ impl SphereRuns {
                 "rays, diffraction off",
                 rays(&|f| f.model.diffraction = Some(Choice(Diffraction::None)))?,
             ),
-            ("rays, interference off", rays(&|f| f.model.interference = Some(false))?),
+            (
+                "rays, interference off",
+                rays(&|f| f.model.interference = Some(Interference::Powers))?,
+            ),
         ];
         let orders = orders
             .into_iter()

@@ -47,6 +47,17 @@ impl ErrorEstimate {
         Self { weighted: most(self.weighted), by_band: most(self.by_band), ..self }
     }
 
+    /// With independent errors beside its own: weighted by intensity from 10° to 170°, and of each band.
+    pub fn and(self, weighted: f64, by_direction: &[f64; ERROR_BANDS]) -> Self {
+        let square = COUNTED.map(|band| by_direction[band].powi(2)).sum::<f64>();
+        Self {
+            weighted: self.weighted.hypot(weighted),
+            by_band: self.by_band.hypot((square / COUNTED.len() as f64).sqrt()),
+            by_direction: std::array::from_fn(|b| self.by_direction[b].hypot(by_direction[b])),
+            ..self
+        }
+    }
+
     /// Relative error of the intensity about a scattering angle (radians).
     ///
     /// ```

@@ -33,6 +33,10 @@ pub struct Bodies {
     pub density: Option<f64>,
     /// Where the density is from, in words; empty where it is not known.
     pub density_source: String,
+    /// Particles per m³ of air; `None`: not known.
+    pub number_density: Option<f64>,
+    /// Volume of water that falls through a level plane, m/s; `None`: not known, or no water.
+    pub rain_rate: Option<f64>,
 }
 
 impl Bodies {
@@ -50,6 +54,8 @@ impl Bodies {
             mean_area: area,
             density: None,
             density_source: String::new(),
+            number_density: None,
+            rain_rate: None,
         }
     }
 
@@ -63,17 +69,29 @@ impl Bodies {
         self.density.map(|density| density * self.mean_volume)
     }
 
+    /// Mean of the cubed radius of equal volume, m³.
+    pub fn mean_cubed_radius(&self) -> f64 {
+        0.75 / PI * self.mean_volume
+    }
+
+    /// Mass of the particles per volume of air, kg/m³, where it is known.
+    pub fn mass_content(&self) -> Option<f64> {
+        self.number_density.zip(self.mean_mass()).map(|(number, mass)| number * mass)
+    }
+
     /// # Errors
     /// When a number is not positive and finite, or the effective radius is not `3V/4A`.
     pub fn validate(&self) -> Result<(), InvalidTable> {
-        let lengths = [
+        let numbers = [
             ("size_effective_radius", self.effective_radius, "a positive length"),
             ("mean_volume", self.mean_volume, "a positive volume"),
             ("mean_projected_area", self.mean_area, "a positive area"),
             ("medium_density", self.density.unwrap_or(1.0), "a positive density"),
+            ("number_density", self.number_density.unwrap_or(1.0), "a positive number per volume"),
+            ("rain_rate", self.rain_rate.unwrap_or(1.0), "a positive speed"),
         ];
         if let Some((field, value, accepted)) =
-            lengths.into_iter().find(|(_, value, _)| !(value.is_finite() && *value > 0.0))
+            numbers.into_iter().find(|(_, value, _)| !(value.is_finite() && *value > 0.0))
         {
             return Err(invalid(field, value, accepted));
         }

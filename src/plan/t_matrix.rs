@@ -4,7 +4,7 @@ use super::PlanError;
 use crate::farfield::assignment::Thresholds;
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::phase_table::ForwardPeak;
-use crate::scene::{Diffraction, Orders, Scene};
+use crate::scene::{Diffraction, Interference, Orders, Scene};
 use crate::series::tmatrix::{self, Solver, TMatrixError};
 use crate::shape::Shape;
 use std::f64::consts::TAU;
@@ -39,7 +39,7 @@ pub(super) fn takes(
 ) -> Result<bool, PlanError> {
     // what only rays know of
     let whole = scene.orders == Orders::Auto
-        && scene.interference
+        && scene.interference == Interference::Waves
         && scene.diffraction == Diffraction::Airy
         && scene.forward_peak != ForwardPeak::Separate
         && scene.rays_across.is_none();

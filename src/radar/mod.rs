@@ -26,7 +26,8 @@ mod rain;
 mod spectrum;
 mod sums;
 
-pub use drop_shape::{AxisRatioLaw, DropShape};
+pub use crate::shape::AxisRatioLaw;
+pub use drop_shape::DropShape;
 pub use rain::{Beam, RadarError, Rain};
 pub use spectrum::DropSpectrum;
 pub use sums::{RadarQuantities, RadarSums};

@@ -1,9 +1,9 @@
 //! Words that stand for one of a closed set of values, in scene files and flags alike.
 
 use super::error::{SceneError, nearest};
-use super::{Diffraction, Method, Orientation, SunDisc};
+use super::{Diffraction, Interference, Method, Orientation, SunDisc};
 use crate::phase_table::{ForwardPeak, Quantity};
-use crate::shape::RaindropModel;
+use crate::shape::{AxisRatioLaw, RaindropModel};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -118,6 +118,87 @@ impl<'de> Deserialize<'de> for OrientationKey {
     }
 }
 
+impl Named for AxisRatioLaw {
+    const NAMES: &'static [(&'static str, Self)] = &AxisRatioLaw::NAMES;
+}
+
+/// An axis ratio: a number, or a law by the size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AxisRatioKey {
+    /// Vertical over horizontal diameter.
+    Number(f64),
+    /// By the diameter of equal volume.
+    Law(AxisRatioLaw),
+}
+
+impl std::fmt::Display for AxisRatioKey {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(ratio) => write!(f, "{ratio}"),
+            Self::Law(law) => write!(f, "\"{}\"", law.name()),
+        }
+    }
+}
+
+impl std::str::FromStr for AxisRatioKey {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.parse() {
+            Ok(ratio) => Ok(Self::Number(ratio)),
+            Err(_) => AxisRatioLaw::from_name(text).map(Self::Law),
+        }
+    }
+}
+
+impl Serialize for AxisRatioKey {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Number(ratio) => serializer.serialize_f64(*ratio),
+            Self::Law(law) => serializer.serialize_str(law.name()),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for AxisRatioKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(ratio) => Ok(Self::Number(ratio)),
+            toml::Value::Integer(ratio) => Ok(Self::Number(ratio as f64)),
+            toml::Value::String(word) => {
+                AxisRatioLaw::from_name(&word).map(Self::Law).map_err(D::Error::custom)
+            }
+            other => Err(D::Error::custom(format!(
+                "{other} is no axis ratio; accepted: a number, or a law such as \"thurai-2007\""
+            ))),
+        }
+    }
+}
+
+/// Canting in a scene file or flag: `{ deviation_deg = 7 }`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CantingKeys {
+    /// Standard deviation of the axis about the vertical, in each of two planes, degrees.
+    pub deviation_deg: f64,
+}
+
+/// As on the command line: degrees, or the table of the scene file with or without its braces.
+impl std::str::FromStr for CantingKeys {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Ok(deviation_deg) = text.parse() {
+            return Ok(Self { deviation_deg });
+        }
+        let bare = text.trim().trim_start_matches('{').trim_end_matches('}');
+        toml::from_str(bare).map_err(|error| {
+            let message = error.message().trim().replace('\n', ", ");
+            format!("{message}; accepted: deviation_deg = 7")
+        })
+    }
+}
+
 impl Named for RaindropModel {
     const NAMES: &'static [(&'static str, Self)] = &[
         (RaindropModel::BeardChuang1987.name(), RaindropModel::BeardChuang1987),
@@ -149,6 +230,46 @@ impl Named for Method {
         ("debye", Method::Debye),
         ("tmatrix", Method::TMatrix),
     ];
+}
+
+impl Named for Interference {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("true", Interference::Waves),
+        ("false", Interference::Powers),
+        ("within-orders", Interference::WithinOrders),
+    ];
+}
+
+/// `true`, `false` and words, in a scene file and as a flag.
+impl Serialize for Interference {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Interference::Waves => serializer.serialize_bool(true),
+            Interference::Powers => serializer.serialize_bool(false),
+            Interference::WithinOrders => serializer.serialize_str(self.name()),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Interference {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Boolean(true) => Ok(Interference::Waves),
+            toml::Value::Boolean(false) => Ok(Interference::Powers),
+            toml::Value::String(word) => Self::from_name(&word).map_err(D::Error::custom),
+            other => Err(D::Error::custom(format!(
+                "{other} is no kind of interference; accepted: true, false, \"within-orders\""
+            ))),
+        }
+    }
+}
+
+impl std::str::FromStr for Interference {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Self, String> {
+        Self::from_name(word)
+    }
 }
 
 impl Named for Diffraction {

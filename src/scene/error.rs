@@ -103,6 +103,16 @@ impl SceneError {
         SceneError::Medium { place: Place::key(key), source }
     }
 
+    /// The same error of one of several kinds of particles: `particle.shape` → `particles[2].shape`, counted
+    /// from 1.
+    pub(super) fn of_mode(self, place: usize) -> Self {
+        let number = place + 1;
+        self.placed(|key| {
+            let name = key.strip_prefix("particle.").unwrap_or(key);
+            Place::Key { key: format!("particles[{number}].{name}") }
+        })
+    }
+
     /// The same error with its bare key replaced by the place that the key came from.
     pub(super) fn placed(mut self, place_of: impl Fn(&str) -> Place) -> Self {
         match &mut self {

@@ -4,12 +4,12 @@
 //! list of what is known. Every key is optional, because a flag may give what the file does not;
 //! [`SceneFile::overridden_by`] lays flags over a file.
 
-use super::choice::{Choice, OrientationKey, ShapeName};
+use super::choice::{AxisRatioKey, CantingKeys, Choice, OrientationKey, ShapeName};
 #[cfg(feature = "cli")]
 use super::flags::{index, medium, word};
 use super::grid::Grid;
 use super::sizes::SizeKeys;
-use super::{Diffraction, Method, Orders, SunDisc};
+use super::{Diffraction, Interference, Method, Orders, SunDisc};
 use crate::medium::MediumSpec;
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
@@ -23,6 +23,14 @@ pub struct SceneFile {
     /// `[particle]`.
     #[cfg_attr(feature = "cli", command(flatten))]
     pub particle: ParticleKeys,
+    /// `[[particles]]`: several kinds of particles in place of `[particle]`.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "cli", arg(skip))]
+    pub particles: Vec<ModeKeys>,
+    /// `[amount]`.
+    #[serde(skip_serializing_if = "AmountKeys::is_empty")]
+    #[cfg_attr(feature = "cli", command(flatten))]
+    pub amount: AmountKeys,
     /// `[light]`.
     #[cfg_attr(feature = "cli", command(flatten))]
     pub light: LightKeys,
@@ -92,11 +100,13 @@ section! {
         /// Diameter of the sphere of equal volume
         diameter_mm: f64 [value_name = "MM", allow_negative_numbers = true,
             conflicts_with_all = ["radius_mm", "radius_um"]]
-        /// Many spheres: kind = "gamma", effective_radius_um = 10, effective_variance = 0.1
+        /// Many sizes: kind = "gamma", effective_radius_um = 10, effective_variance = 0.1
         size_distribution: SizeKeys [value_name = "TABLE",
             conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"]]
         /// Vertical over horizontal diameter of a spheroid
-        axis_ratio: f64 [value_name = "RATIO", allow_negative_numbers = true]
+        axis_ratio: AxisRatioKey [value_name = "RATIO|LAW", allow_negative_numbers = true]
+        /// Tilts of the axis: deviation_deg = 7 (drops by rays)
+        canting: CantingKeys [value_name = "DEG", allow_negative_numbers = true]
         /// Axis upright, or at random
         orientation: OrientationKey [value_parser = OrientationKey::parse]
         /// Shape model of a raindrop
@@ -110,6 +120,20 @@ section! {
     } flags {
         /// Constant index n+ik of the particle in place of a medium
         index: [f64; 2] [value_name = "N[+K]", value_parser = index, conflicts_with = "medium"]
+    }
+}
+
+section! {
+    /// `[amount]`: how many particles a volume holds. At most one of them.
+    AmountKeys, "Amount" {
+        /// Water that falls out of the volume
+        rain_rate_mm_h: f64 [value_name = "MM_H", allow_negative_numbers = true]
+        /// Particles per volume
+        number_per_cm3: f64 [value_name = "PER_CM3", allow_negative_numbers = true,
+            conflicts_with = "rain_rate_mm_h"]
+        /// Mass of the particles per volume
+        water_content_g_m3: f64 [value_name = "G_M3", allow_negative_numbers = true,
+            conflicts_with_all = ["rain_rate_mm_h", "number_per_cm3"]]
     }
 }
 
@@ -151,8 +175,8 @@ section! {
     ModelKeys, "Model" {
         /// Rays, an exact series for spheres, the T-matrix, or whichever suits
         method: Choice<Method> [value_parser = word::<Method>()]
-        /// Add rays with their phases
-        interference: bool [value_name = "true|false"]
+        /// Add rays with their phases: all, those of one order, or none
+        interference: Interference [value_name = "true|false|within-orders"]
         /// Diffraction in the ray method
         diffraction: Choice<Diffraction> [value_parser = word::<Diffraction>()]
         /// `auto`, or a list such as 0,1,2
@@ -168,18 +192,61 @@ section! {
 }
 
 /// Known keys by section.
-pub(super) const KEYS: [(&str, &[&str]); 4] = [
+pub(super) const KEYS: [(&str, &[&str]); 5] = [
     ("particle", ParticleKeys::KEYS),
+    ("amount", AmountKeys::KEYS),
     ("light", LightKeys::KEYS),
     ("table", TableKeys::KEYS),
     ("model", ModelKeys::KEYS),
 ];
+
+/// `[[particles]]`, known keys of each: those of `[particle]` and its share.
+pub(super) const MODES: &str = "particles";
+
+/// One kind of particles among several, and its share.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ModeKeys {
+    /// Share of the number of particles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub number_fraction: Option<f64>,
+    /// Share of their volume.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume_fraction: Option<f64>,
+    /// Share of their mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_fraction: Option<f64>,
+    /// What they are.
+    #[serde(flatten)]
+    pub particle: ParticleKeys,
+}
+
+impl ModeKeys {
+    const SHARES: [&'static str; 3] = ["number_fraction", "volume_fraction", "mass_fraction"];
+
+    /// All keys.
+    pub(super) fn keys() -> Vec<&'static str> {
+        ParticleKeys::KEYS.iter().copied().chain(Self::SHARES).collect()
+    }
+}
+
+impl AmountKeys {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
 
 impl SceneFile {
     /// This scene with everything replaced that `flags` gives.
     pub fn overridden_by(self, flags: &SceneFile) -> SceneFile {
         SceneFile {
             particle: self.particle.overridden_by(&flags.particle),
+            amount: match flags.amount.is_empty() {
+                true => self.amount,
+                // one amount replaces another
+                false => flags.amount.clone().over(AmountKeys::default()),
+            },
+            particles: self.particles,
             light: self.light.overridden_by(&flags.light),
             table: flags.table.clone().over(self.table),
             model: self.model.overridden_by(&flags.model),

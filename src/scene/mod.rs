@@ -15,6 +15,7 @@ mod file;
 #[cfg(feature = "cli")]
 mod flags;
 mod grid;
+mod modes;
 mod particle;
 mod read;
 mod size;
@@ -23,14 +24,15 @@ mod sizes;
 mod tests;
 mod validate;
 
-pub use choice::{Choice, Named, OrientationKey, ShapeName};
+pub use choice::{AxisRatioKey, CantingKeys, Choice, Named, OrientationKey, ShapeName};
 // Batches use them, and batches need HDF5.
 pub use crate::math::bytes::human_bytes;
 #[cfg(feature = "hdf5")]
 pub(crate) use error::shown;
 pub use error::{Place, SceneError};
-pub use file::{LightKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
+pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::Grid;
+pub use modes::{Amount, Mode};
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
 pub(crate) use read::{line_at, read_limited};
@@ -39,7 +41,7 @@ pub use sizes::SizeKeys;
 
 use crate::medium::{Density, Medium};
 use crate::phase_table::{ForwardPeak, Quantity};
-use crate::shape::{OwnBody, RaindropModel};
+use crate::shape::{AxisRatioLaw, OwnBody, RaindropModel};
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
@@ -101,6 +103,17 @@ pub enum Method {
     TMatrix,
 }
 
+/// Which waves add as amplitudes; the others add as powers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interference {
+    /// All of a particle.
+    Waves,
+    /// None.
+    Powers,
+    /// Those of one order: what is left of interference in a mean over sizes.
+    WithinOrders,
+}
+
 /// Diffraction in the ray method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Diffraction {
@@ -137,10 +150,19 @@ pub enum Orders {
 pub struct Scene {
     /// With a distribution of sizes the sphere of the effective radius.
     pub particle: Particle,
-    /// Many spheres in place of one.
+    /// Many sizes in place of one.
     pub size_distribution: Option<SizeDistribution>,
+    /// Several kinds of particles in place of one; what is said of one particle here is then said of the
+    /// first of them.
+    pub modes: Vec<Mode>,
+    /// How many particles a volume holds, where that is told.
+    pub amount: Option<Amount>,
     /// How its axis stands.
     pub orientation: Orientation,
+    /// Axis ratio of a spheroid by its size, in place of that of the particle above.
+    pub axis_ratio_law: Option<AxisRatioLaw>,
+    /// Standard deviation of its axis about the vertical, in each of two planes, radians; 0: upright.
+    pub canting: f64,
     /// What the particle is made of.
     pub medium: Medium,
     /// Of the medium, where it is known.
@@ -165,8 +187,8 @@ pub struct Scene {
     pub bit_round: Option<u8>,
     /// Who computes.
     pub method: Method,
-    /// Whether rays interfere.
-    pub interference: bool,
+    /// Which rays interfere.
+    pub interference: Interference,
     /// How rays diffract.
     pub diffraction: Diffraction,
     /// Orders to be summed.

@@ -1,9 +1,9 @@
 //! The section `[particle]` of a scene: what scatters, how large it is, what it is made of.
 
-use super::choice::{Named, ShapeName, chosen};
+use super::choice::{AxisRatioKey, CantingKeys, Choice, Named, ShapeName, chosen};
 use super::error::SceneError;
 use super::file::ParticleKeys;
-use super::{Particle, Scene};
+use super::{Method, Particle, Scene};
 use crate::medium::{Density, Medium, MediumSpec};
 use crate::shape::{OwnBody, RaindropModel};
 use crate::size_distribution::SizeDistribution;
@@ -14,10 +14,22 @@ const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 /// Radii of spheres and spheroids, millimetres: from a nanometre to a centimetre.
 const RADII_MM: std::ops::RangeInclusive<f64> = 1e-6..=10.0;
 
+/// Whether rays serve a particle: any that is no sphere, or what is asked for.
+pub(super) fn is_by_rays(keys: &ParticleKeys, method: Method) -> bool {
+    let sphere = keys.shape == Some(Choice(ShapeName::Sphere));
+    method == Method::Rays || method == Method::Auto && !sphere
+}
+
 /// Shape, size and what goes with the shape.
-pub(super) fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
+pub(super) fn particle_of(
+    keys: &ParticleKeys,
+    sizes: Option<&SizeDistribution>,
+) -> Result<Particle, SceneError> {
     let shape = chosen(keys.shape, "particle.shape")?;
-    let sizes = size_distribution(keys)?;
+    let radius = |accept: &dyn Fn(f64) -> Result<(), String>| match sizes {
+        Some(sizes) => Ok(sizes.effective_radius()),
+        None => radius(keys, accept),
+    };
     if let (Some(ratio), true) = (keys.axis_ratio, shape != ShapeName::Spheroid) {
         let accepted = format!("only a spheroid has an axis ratio; the shape is {}", shape.name());
         return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
@@ -27,41 +39,56 @@ pub(super) fn particle_of(keys: &ParticleKeys) -> Result<Particle, SceneError> {
         return Err(SceneError::invalid("particle.model", model.0.name(), accepted));
     }
     match shape {
-        ShapeName::Sphere => {
-            let radius = match sizes {
-                Some(sizes) => sizes.effective_radius(),
-                None => radius(keys, plain_radius)?,
-            };
-            Ok(Particle::Sphere { radius })
-        }
+        ShapeName::Sphere => Ok(Particle::Sphere { radius: radius(&plain_radius)? }),
         ShapeName::Spheroid => Ok(Particle::Spheroid {
-            radius: radius(keys, plain_radius)?,
-            axis_ratio: axis_ratio(keys.axis_ratio)?,
+            radius: radius(&plain_radius)?,
+            axis_ratio: match keys.axis_ratio {
+                Some(AxisRatioKey::Law(law)) => law.axis_ratio(2.0 * radius(&plain_radius)?),
+                other => axis_ratio(other)?,
+            },
         }),
         ShapeName::Raindrop => {
             let model = chosen(keys.model, "particle.model")?;
-            let radius = radius(keys, |radius_mm| raindrop_radius(model, radius_mm))?;
+            if let Some((_, to)) = sizes.map(SizeDistribution::bounds) {
+                raindrop_limit(model, to * 1e3).map_err(|accepted| sizes_error(keys, accepted))?;
+            }
+            let radius = radius(&|radius_mm| raindrop_radius(model, radius_mm))?;
             Ok(Particle::Raindrop { radius, model })
         }
     }
 }
 
-/// Many spheres in place of one.
+/// What is wrong with a distribution of sizes.
+fn sizes_error(keys: &ParticleKeys, accepted: impl Into<String>) -> SceneError {
+    let written = keys.size_distribution.as_ref().map(ToString::to_string).unwrap_or_default();
+    SceneError::invalid("particle.size_distribution", written, accepted)
+}
+
+/// Many sizes in place of one; files that it names are looked for in `folder`.
 pub(super) fn size_distribution(
     keys: &ParticleKeys,
+    folder: &Path,
 ) -> Result<Option<SizeDistribution>, SceneError> {
-    const KEY: &str = "particle.size_distribution";
     let Some(sizes) = &keys.size_distribution else { return Ok(None) };
-    let shape = chosen(keys.shape, "particle.shape")?;
-    if shape != ShapeName::Sphere {
-        let accepted = format!("only spheres have one; the shape is {}", shape.name());
-        return Err(SceneError::invalid(KEY, sizes, accepted));
-    }
     if keys.radius_mm.or(keys.radius_um).or(keys.diameter_mm).is_some() {
         let accepted = "the size is given twice; leave out radius_mm, radius_um and diameter_mm";
-        return Err(SceneError::invalid(KEY, sizes, accepted));
+        return Err(sizes_error(keys, accepted));
     }
-    sizes.checked().map(Some).map_err(|accepted| SceneError::invalid(KEY, sizes, accepted))
+    let checked = sizes.checked(folder).map_err(|accepted| sizes_error(keys, accepted))?;
+    let (from, to) = checked.bounds();
+    let sphere = keys.shape == Some(Choice(ShapeName::Sphere));
+    let bounded = from > 0.0 && to.is_finite();
+    if !(sphere || bounded || sizes.is_delta()) {
+        let accepted = "drops that are no spheres need both limits, such as from_radius_mm = 0.1, \
+                        to_radius_mm = 1.5";
+        return Err(sizes_error(keys, accepted));
+    }
+    Ok(Some(checked))
+}
+
+/// The largest drop of many.
+fn raindrop_limit(model: RaindropModel, to_mm: f64) -> Result<(), String> {
+    raindrop_radius(model, to_mm).map_err(|error| format!("drops up to {to_mm} mm: {error}"))
 }
 
 /// The radius in metres from whichever size was given; `accept` judges it in millimetres.
@@ -122,7 +149,25 @@ fn raindrop_radius(model: RaindropModel, radius_mm: f64) -> Result<(), String> {
     Err(message)
 }
 
-fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
+/// Largest deviation of axes, degrees: beyond, tilts are no small angles.
+const CANTINGS: std::ops::RangeInclusive<f64> = 0.0..=20.0;
+
+/// Standard deviation of the axis, radians; 0 of spheres, which have none.
+pub(super) fn canting(keys: &ParticleKeys) -> Result<f64, SceneError> {
+    let Some(CantingKeys { deviation_deg }) = keys.canting else { return Ok(0.0) };
+    if !CANTINGS.contains(&deviation_deg) {
+        let accepted = format!(
+            "a standard deviation of {} to {} degrees is accepted",
+            CANTINGS.start(),
+            CANTINGS.end()
+        );
+        return Err(SceneError::invalid("particle.canting", deviation_deg, accepted));
+    }
+    let sphere = keys.shape == Some(Choice(ShapeName::Sphere));
+    Ok(if sphere { 0.0 } else { deviation_deg.to_radians() })
+}
+
+fn axis_ratio(ratio: Option<AxisRatioKey>) -> Result<f64, SceneError> {
     const KEY: &str = "particle.axis_ratio";
     let accepted = format!(
         "vertical over horizontal diameter of the spheroid, {} to {}",
@@ -131,7 +176,7 @@ fn axis_ratio(ratio: Option<f64>) -> Result<f64, SceneError> {
     );
     match ratio {
         None => Err(SceneError::missing(KEY, accepted)),
-        Some(ratio) if AXIS_RATIOS.contains(&ratio) => Ok(ratio),
+        Some(AxisRatioKey::Number(ratio)) if AXIS_RATIOS.contains(&ratio) => Ok(ratio),
         Some(ratio) => Err(SceneError::invalid(KEY, ratio, accepted)),
     }
 }
@@ -248,10 +293,13 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn with_own_body(mut self, body: OwnBody, radius: f64) -> Scene {
-        let struck = ["axis_ratio", "model", "radius_um", "diameter_mm", "size_distribution"];
+        let struck =
+            ["axis_ratio", "canting", "model", "radius_um", "diameter_mm", "size_distribution"];
         let keys = [("shape", body.name().into()), ("radius_mm", (radius * 1e3).into())];
         self.note_particle(&struck, keys);
         self.size_distribution = None;
+        self.modes = Vec::new();
+        (self.axis_ratio_law, self.canting) = (None, 0.0);
         self.particle = Particle::Own { radius, body };
         self
     }

@@ -1,7 +1,7 @@
 //! From the text of a scene file to `SceneFile`, remembering the lines.
 
 use super::error::{Place, SceneError, nearest};
-use super::file::{KEYS, SceneFile};
+use super::file::{KEYS, MODES, ModeKeys, SceneFile};
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,14 @@ impl SceneText {
     fn span_of(&self, key: &str) -> Option<Range<usize>> {
         let document = DeTable::parse(&self.text).ok()?;
         let (section, name) = key.split_once('.')?;
-        let keys = get(document.get_ref(), section)?.as_table()?;
+        let keys = match section.strip_suffix(']').and_then(|section| section.split_once('[')) {
+            // one of several kinds of particles, counted from 1
+            Some((section, number)) => {
+                let modes = get(document.get_ref(), section)?.as_array()?;
+                modes.get(number.parse::<usize>().ok()?.checked_sub(1)?)?.get_ref().as_table()?
+            }
+            None => get(document.get_ref(), section)?.as_table()?,
+        };
         keys.iter().find(|(key, _)| key.get_ref() == name).map(|(key, _)| key.span())
     }
 }
@@ -83,6 +90,16 @@ fn check_keys(name: &str, text: &str, document: &DeTable) -> Result<(), SceneErr
         })
     };
     for (section, value) in document {
+        if section.get_ref() == MODES {
+            let known = ModeKeys::keys();
+            let modes = value.get_ref().as_array().into_iter().flatten();
+            for (key, _) in modes.filter_map(|mode| mode.get_ref().as_table()).flatten() {
+                if !known.contains(&&**key.get_ref()) {
+                    return unknown(key.span(), key.get_ref(), known);
+                }
+            }
+            continue;
+        }
         let Some((_, known)) = KEYS.iter().find(|(name, _)| name == section.get_ref()) else {
             // A key that was written above its section's head is the likelier slip.
             if let Some((home, _)) =
@@ -95,7 +112,8 @@ fn check_keys(name: &str, text: &str, document: &DeTable) -> Result<(), SceneErr
                 }
                 return error;
             }
-            return unknown(section.span(), section.get_ref(), KEYS.map(|(name, _)| name).into());
+            let sections = KEYS.iter().map(|(name, _)| *name).chain([MODES]).collect();
+            return unknown(section.span(), section.get_ref(), sections);
         };
         for (key, _) in value.get_ref().as_table().into_iter().flatten() {
             if !known.contains(&&**key.get_ref()) {

@@ -2,13 +2,15 @@
 
 use super::choice::{Choice, Named, ShapeName, chosen};
 use super::error::SceneError;
-use super::file::SceneFile;
+use super::file::{ParticleKeys, SceneFile};
 use super::grid::Grid;
-use super::particle::{density_of, medium_of, particle_of, size_distribution};
-use super::{Diffraction, Method, Orders, Orientation, Particle, Scene, SunDisc};
+use super::modes::{Mode, amount, modes};
+use super::particle::is_by_rays;
+use super::{Diffraction, Interference, Method, Orders, Orientation, Particle, Scene, SunDisc};
 use crate::medium::{MediumSpec, wavelength_of_ghz};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
+use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
 /// Highest order that may be asked for by name.
@@ -33,8 +35,7 @@ impl SceneFile {
     /// As for [`SceneFile::validate`].
     pub fn validate_in(&self, folder: &Path) -> Result<Scene, SceneError> {
         let resolved = self.with_defaults();
-        let (particle, light) = (&resolved.particle, &resolved.light);
-        let (table, model) = (&resolved.table, &resolved.model);
+        let (light, table, model) = (&resolved.light, &resolved.table, &resolved.model);
         let wavelengths = match (&light.frequencies_ghz, &self.light.wavelengths_nm) {
             (Some(grid), Some(_)) => {
                 let accepted = "wavelengths_nm is given too; keep one of the two";
@@ -43,12 +44,27 @@ impl SceneFile {
             (Some(grid), None) => frequencies(grid)?,
             (None, _) => wavelengths(light.wavelengths_nm.as_ref())?,
         };
+        let mut modes = modes(&resolved, folder, &wavelengths)?;
+        let Mode {
+            particle,
+            size_distribution,
+            density,
+            medium,
+            orientation,
+            axis_ratio_law,
+            canting,
+            ..
+        } = if modes.len() == 1 { modes.remove(0) } else { modes[0].clone() };
         let scene = Scene {
-            particle: particle_of(particle)?,
-            size_distribution: size_distribution(particle)?,
-            density: density_of(particle, &wavelengths)?,
-            medium: medium_of(particle, folder, &wavelengths)?,
-            orientation: particle.orientation.map_or(Orientation::Upright, |key| key.0),
+            particle,
+            size_distribution,
+            density,
+            medium,
+            orientation,
+            axis_ratio_law,
+            canting,
+            amount: amount(&resolved.amount)?,
+            modes,
             bandwidth: bandwidth(light.bandwidth_nm, &wavelengths)?,
             sun_disc: chosen(light.sun_disc, "light.sun_disc")?,
             sun_elevation: sun_elevation(light.sun_elevation_deg)?,
@@ -59,7 +75,7 @@ impl SceneFile {
             forward_peak: chosen(table.forward_peak, "table.forward_peak")?,
             bit_round: bit_round(table.bit_round)?,
             method: chosen(model.method, "model.method")?,
-            interference: model.interference.unwrap_or(true),
+            interference: model.interference.unwrap_or(Interference::Waves),
             diffraction: chosen(model.diffraction, "model.diffraction")?,
             orders: orders(model.orders.as_ref())?,
             tolerance: tolerance(model.tolerance)?,
@@ -67,8 +83,10 @@ impl SceneFile {
             rays_across: rays_across(model.rays_across)?,
             toml: resolved.to_toml(),
         };
-        scene.check_method()?;
-        scene.check_means()?;
+        for part in scene.parts() {
+            part.check_method(scene.modes.is_empty())?;
+            part.check_means()?;
+        }
         scene.check_size()?;
         Ok(scene)
     }
@@ -82,10 +100,12 @@ impl SceneFile {
     /// This scene with every key that may be left out filled in.
     fn with_defaults(&self) -> SceneFile {
         let mut full = self.clone();
-        let particle = &mut full.particle;
-        particle.medium.get_or_insert_with(MediumSpec::default);
-        if particle.shape == Some(Choice(ShapeName::Raindrop)) {
-            particle.model.get_or_insert(Choice(RaindropModel::BeardChuang1987));
+        let one = full.particles.is_empty().then_some(&mut full.particle);
+        for particle in full.particles.iter_mut().map(|mode| &mut mode.particle).chain(one) {
+            particle.medium.get_or_insert_with(MediumSpec::default);
+            if particle.shape == Some(Choice(ShapeName::Raindrop)) {
+                particle.model.get_or_insert(Choice(RaindropModel::BeardChuang1987));
+            }
         }
         let range = |from, to, count| Grid::Range { from, to, count };
         full.light.sun_elevation_deg.get_or_insert(20.0);
@@ -98,7 +118,15 @@ impl SceneFile {
         full.table.quantity.get_or_insert(Choice(Quantity::PhaseFunction));
         full.table.forward_peak.get_or_insert(Choice(ForwardPeak::default()));
         full.model.method.get_or_insert(Choice(Method::Auto));
-        full.model.interference.get_or_insert(true);
+        let method = full.model.method.map_or(Method::Auto, |method| method.0);
+        let all = full.particles.iter().map(|mode| &mode.particle).chain([&full.particle]);
+        let drops = |keys: &ParticleKeys| {
+            let many = keys.size_distribution.as_ref().is_some_and(|sizes| !sizes.is_delta());
+            (many || keys.canting.is_some()) && is_by_rays(keys, method)
+        };
+        let many = all.into_iter().any(drops);
+        let interference = if many { Interference::WithinOrders } else { Interference::Waves };
+        full.model.interference.get_or_insert(interference);
         full.model.diffraction.get_or_insert(Choice(Diffraction::Airy));
         full.model.orders.get_or_insert(Orders::Auto);
         full.model.tolerance.get_or_insert(TOLERANCE);
@@ -234,7 +262,7 @@ fn rays_across(rays: Option<u32>) -> Result<Option<usize>, SceneError> {
 
 impl Scene {
     /// The exact series know only spheres, and not every switch of the ray method.
-    fn check_method(&self) -> Result<(), SceneError> {
+    fn check_method(&self, alone: bool) -> Result<(), SceneError> {
         let series = matches!(self.method, Method::Mie | Method::Debye);
         if series && !matches!(self.particle, Particle::Sphere { .. }) {
             let accepted = "the exact series are for spheres; other shapes take \"rays\", \"tmatrix\" or \"auto\"";
@@ -251,6 +279,13 @@ impl Scene {
         let mie = self.method == Method::Mie || (self.method == Method::Auto && sphere);
         let random = self.orientation == Orientation::Random && !sphere;
         let all_at_once = mie || random || self.method == Method::TMatrix;
+        let one = self.size_distribution.as_ref().is_none_or(|sizes| sizes.single().is_some());
+        let one = one && self.canting == 0.0;
+        if !all_at_once && one && self.interference == Interference::WithinOrders {
+            let accepted = "orders of one drop add as waves (true) or as powers with all rays (false); \
+                            \"within-orders\" is for a size_distribution or canting, by rays";
+            return Err(SceneError::invalid("model.interference", "within-orders", accepted));
+        }
         if !all_at_once && self.method != Method::Debye {
             return Ok(());
         }
@@ -281,9 +316,12 @@ impl Scene {
                             \"point\" have it in the table, method = \"rays\" can keep it apart";
             return refuse("table.forward_peak", self.forward_peak.name().into(), accepted);
         }
-        if !self.interference {
+        // Within orders is what drops of the same scene take; to a mean of the exact series it says nothing.
+        let told = self.interference == Interference::WithinOrders
+            && (!alone || self.size_distribution.is_some());
+        if self.interference != Interference::Waves && !told {
             let accepted = "an exact series adds waves; method = \"rays\" can leave that out";
-            return refuse("model.interference", "false".into(), accepted);
+            return refuse("model.interference", self.interference.name().into(), accepted);
         }
         Ok(())
     }
@@ -293,13 +331,25 @@ impl Scene {
         let sphere = matches!(self.particle, Particle::Sphere { .. });
         let exact = sphere && !matches!(self.method, Method::Rays | Method::TMatrix);
         let many = self.size_distribution.is_some();
+        let sizes = self.size_distribution.as_ref().is_some_and(|sizes| sizes.single().is_none());
         let single = self.method == Method::Debye && (many || self.bandwidth > 0.0);
         if exact && !single {
             return Ok(());
         }
-        let accepted = "means over sizes, bands and the sun's disc need a sphere and method = \
-                        \"mie\" (or \"auto\"); \"debye\" takes the sun's disc alone";
-        if many {
+        let by_rays = matches!(self.method, Method::Rays) || !sphere && self.method == Method::Auto;
+        if (sizes || self.canting > 0.0) && by_rays {
+            self.check_drops()?;
+        }
+        if self.canting > 0.0 && !by_rays {
+            let value =
+                format!("{}°, method = \"{}\"", self.canting.to_degrees(), self.method.name());
+            let accepted = "drops that cant are computed by rays: method = \"rays\" or \"auto\"";
+            return Err(SceneError::invalid("particle.canting", value, accepted));
+        }
+        let accepted = "means over sizes need a sphere and method = \"mie\" (or \"auto\"), or method = \
+                        \"rays\"; those over bands and the sun's disc need a sphere and \"mie\" (or \
+                        \"auto\"); \"debye\" takes the sun's disc alone";
+        if sizes && !by_rays {
             let key = "particle.size_distribution";
             let method = format!("(many spheres) with method = \"{}\"", self.method.name());
             return Err(SceneError::invalid(key, method, accepted));
@@ -310,6 +360,46 @@ impl Scene {
         }
         if self.sun_disc != SunDisc::None {
             return Err(SceneError::invalid("light.sun_disc", self.sun_disc.name(), accepted));
+        }
+        Ok(())
+    }
+
+    /// A mean over sizes by rays adds orders as powers, and knows the uniform formulas only.
+    fn check_drops(&self) -> Result<(), SceneError> {
+        let refuse = |key: &str, value: &str, accepted: &str| {
+            let many = "with many sizes or tilts";
+            Err(SceneError::invalid(key, format!("{value} {many}"), accepted))
+        };
+        let bounds = self.size_distribution.as_ref().map(SizeDistribution::bounds);
+        if bounds.is_some_and(|(from, to)| from == 0.0 || to.is_infinite()) {
+            let accepted = "a mean over sizes by rays needs both limits, such as from_radius_mm = 0.1, \
+                            to_radius_mm = 1.5";
+            return refuse("particle.size_distribution", "method = \"rays\"", accepted);
+        }
+        if self.orientation == Orientation::Random {
+            let accepted = "the mean over sizes by rays takes \"upright\"";
+            return refuse("particle.orientation", self.orientation.name(), accepted);
+        }
+        if self.interference != Interference::WithinOrders {
+            let accepted = "in a mean over sizes by rays orders add as powers: \"within-orders\"";
+            return refuse("model.interference", self.interference.name(), accepted);
+        }
+        if self.diffraction != Diffraction::Airy {
+            let accepted = "the mean over sizes by rays takes \"airy\"";
+            return refuse("model.diffraction", self.diffraction.name(), accepted);
+        }
+        if self.forward_peak == ForwardPeak::Separate {
+            let accepted = "the peaks of many sizes are no peak apart from the rest: \"cell_average\" or \
+                            \"point\"";
+            return refuse("table.forward_peak", self.forward_peak.name(), accepted);
+        }
+        if let Orders::List(list) = &self.orders {
+            let accepted = "a mean over sizes by rays takes all orders that matter: \"auto\"";
+            return refuse("model.orders", &format!("{list:?}"), accepted);
+        }
+        if let Some(rays) = self.rays_across {
+            let accepted = "the rays of many sizes are chosen by size; leave it out";
+            return refuse("model.rays_across", &rays.to_string(), accepted);
         }
         Ok(())
     }

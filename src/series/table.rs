@@ -285,7 +285,7 @@ fn of_pair((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {
 
 /// Cells about the forward direction that are coarser than [`COARSE`]. The cell at 0 is half as wide
 /// as its neighbour: it is the step that counts, else no cell would ever follow a fine first one.
-pub(super) fn coarse_cells(theta: &[f64], size_parameter: f64) -> Vec<(f64, f64)> {
+pub(crate) fn coarse_cells(theta: &[f64], size_parameter: f64) -> Vec<(f64, f64)> {
     let last = theta.len() - 1;
     let cell = |i: usize| {
         let low = if i == 0 { theta[0] } else { 0.5 * (theta[i - 1] + theta[i]) };
@@ -299,7 +299,7 @@ pub(super) fn coarse_cells(theta: &[f64], size_parameter: f64) -> Vec<(f64, f64)
 }
 
 /// Angles within a cell and their shares of its solid angle.
-pub(super) fn samples(low: f64, high: f64, size_parameter: f64) -> (Vec<f64>, Vec<f64>) {
+pub(crate) fn samples(low: f64, high: f64, size_parameter: f64) -> (Vec<f64>, Vec<f64>) {
     let lobes = (high - low) * size_parameter / PI;
     let count = (lobes * SAMPLES_PER_LOBE).ceil().clamp(4.0, 65536.0) as usize;
     let angles: Vec<f64> =

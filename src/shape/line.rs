@@ -56,6 +56,8 @@ struct Line<'a, T> {
 }
 
 const NEWTON_STEPS: usize = 40;
+/// Step after which Newton's method has reached rounding.
+const SETTLED: f64 = 1e-9;
 /// `F` at the foot of the perpendicular below which a line passes well inside.
 const DEEP: f64 = -0.25;
 /// Squared distance from the centre up to which a line passes well inside the sphere of equal volume.
@@ -100,11 +102,9 @@ impl<'a, T: Scalar> Line<'a, T> {
             }
             let change = (next - t).size();
             t = next;
-            // Quadratic convergence: one more step reaches rounding.
-            if change <= 1e-9 * t.size() {
-                let (f, slope) = self.at(t);
-                let found = t - f / (slope - f / t);
-                return if self.leaves_first(found) { found } else { self.first_exit(longest) };
+            // Quadratic convergence: what is left is the square of the last step.
+            if change <= SETTLED * t.size() {
+                return if self.leaves_first(t) { t } else { self.first_exit(longest) };
             }
         }
         if T::REAL { self.first_exit(longest) } else { t }
@@ -153,10 +153,7 @@ impl<'a, T: Scalar> Line<'a, T> {
             }
             let change = (next - t).size();
             t = next;
-            // Quadratic convergence: one more step reaches rounding.
-            if change <= 1e-9 {
-                let (f, slope) = self.at(t);
-                t = t - f / slope;
+            if change <= SETTLED {
                 break;
             }
         }

@@ -36,6 +36,6 @@ pub(crate) use body::Body;
 pub use body::Shape;
 pub use error::ShapeError;
 pub use own::{Outline, OwnBody};
-pub use raindrop::RaindropModel;
+pub use raindrop::{AxisRatioLaw, RaindropModel};
 pub use silhouette::Silhouette;
 pub(crate) use tangent::Tangent;

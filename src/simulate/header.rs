@@ -4,9 +4,10 @@
 use super::error::SimulateError;
 use crate::farfield::patches::gaussian_filter;
 use crate::phase_table::{Averaging, Axes, Bodies, DiscOfSun, TableHeader};
-use crate::plan::{Engine, Plan, Symmetry};
+use crate::plan::{Engine, Plan, Symmetry, shape};
+use crate::population;
 use crate::scene::{Diffraction, Particle, Scene, SunDisc};
-use std::f64::consts::PI;
+use std::collections::BTreeSet;
 
 /// The header of the table that a scene makes.
 ///
@@ -18,6 +19,13 @@ pub fn header(scene: &Scene, command_line: String) -> Result<TableHeader, Simula
 
 pub(super) fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> TableHeader {
     let rotational = plan.symmetry == Symmetry::Rotational;
+    // one word where all kinds have it
+    let of_all = |word: &dyn Fn(&Scene, &Plan) -> String| -> String {
+        let parts = scene.parts();
+        let plans = if plan.parts.is_empty() { std::slice::from_ref(plan) } else { &plan.parts };
+        let words: BTreeSet<String> = parts.iter().zip(plans).map(|(s, p)| word(s, p)).collect();
+        words.into_iter().collect::<Vec<_>>().join(" + ")
+    };
     TableHeader {
         axes: Axes {
             wavelength: scene.wavelengths.clone(),
@@ -27,21 +35,28 @@ pub(super) fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> Tab
         quantity: scene.quantity,
         forward_peak: scene.forward_peak,
         rotational_symmetry: rotational,
-        method: match plan.engine {
-            Engine::Meridians | Engine::Patches => "rays",
-            Engine::LorenzMie => "mie",
-            Engine::Debye => "debye",
-            Engine::TMatrix => "tmatrix",
-        }
-        .into(),
-        shape: match &scene.particle {
-            Particle::Sphere { .. } => "sphere",
-            Particle::Spheroid { .. } => "spheroid",
-            Particle::Raindrop { .. } => "raindrop",
-            Particle::Own { body, .. } => body.name(),
-        }
-        .into(),
-        radius: plan.radius,
+        method: of_all(&|_, plan| {
+            let word = match plan.engine {
+                Engine::Meridians | Engine::Patches => "rays",
+                Engine::LorenzMie => "mie",
+                Engine::Debye => "debye",
+                Engine::TMatrix => "tmatrix",
+            };
+            word.into()
+        }),
+        shape: of_all(&|scene, _| {
+            let word = match &scene.particle {
+                Particle::Sphere { .. } => "sphere",
+                Particle::Spheroid { .. } => "spheroid",
+                Particle::Raindrop { .. } => "raindrop",
+                Particle::Own { body, .. } => body.name(),
+            };
+            word.into()
+        }),
+        radius: match plan.parts.as_slice() {
+            [] => plan.radius,
+            _ => bodies(scene, plan).effective_radius,
+        },
         sun_elevation: scene.sun_elevation,
         bodies: Some(bodies(scene, plan)),
         averaging: averaging(scene, plan),
@@ -53,23 +68,32 @@ pub(super) fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> Tab
 
 /// The particles of a scene as bodies.
 fn bodies(scene: &Scene, plan: &Plan) -> Bodies {
-    let bodies = match &scene.size_distribution {
-        Some(sizes) => Bodies {
-            effective_radius: sizes.effective_radius(),
-            effective_variance: sizes.effective_variance(),
-            mean_volume: 4.0 / 3.0 * PI * sizes.moment(3.0),
-            mean_area: PI * sizes.moment(2.0),
-            ..Bodies::sphere(plan.radius)
-        },
-        None => Bodies::of_one_size(
-            4.0 / 3.0 * PI * plan.radius.powi(3),
-            plan.shape.silhouette().area() * plan.radius.powi(2),
-        ),
+    let plans = if plan.parts.is_empty() { std::slice::from_ref(plan) } else { &plan.parts };
+    let shadows: Vec<f64> =
+        scene.parts().iter().zip(plans).map(|(part, plan)| shadow(part, plan)).collect();
+    population::bodies(scene, &shadows)
+}
+
+/// Steps of the mean over shadows of flattened drops.
+const SHADOWS: usize = 16;
+
+/// Area of the shadow of a kind of particles, in units of the mean squared radius.
+fn shadow(scene: &Scene, plan: &Plan) -> f64 {
+    let many = scene.size_distribution.as_ref().filter(|sizes| sizes.single().is_none());
+    let Some(sizes) = many.filter(|_| !plan.shape.is_sphere()) else {
+        return plan.shape.silhouette().area();
     };
-    match &scene.density {
-        Some(density) => bodies.with_density(Some(density.kg_m3), &density.source),
-        None => bodies,
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for at in population::radii(sizes, sizes.bounds(), SHADOWS) {
+        // the plan has judged the largest of them
+        let Ok((shape, _)) = shape(&scene.particle_with_radius(at.radius), scene.sun_elevation)
+        else {
+            continue;
+        };
+        sum += at.weight * shape.silhouette().area();
+        squares += at.weight;
     }
+    sum / squares
 }
 
 /// What a scene averages over.
@@ -81,7 +105,9 @@ fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
             SunDisc::Uniform => DiscOfSun::Uniform,
             SunDisc::LimbDarkened => DiscOfSun::LimbDarkened,
         },
-        sizes: scene.size_distribution.as_ref().is_some_and(|sizes| sizes.single().is_none()),
+        sizes: scene.parts().iter().any(|part| {
+            part.size_distribution.as_ref().is_some_and(|sizes| sizes.single().is_none())
+        }),
         bandwidth: scene.bandwidth,
         filter: if filtered { gaussian_filter::standard_deviation(plan.radius) } else { 0.0 },
     }

@@ -28,5 +28,6 @@
 //! ```
 
 pub mod forward_peak;
+pub mod peak_change;
 pub mod scattered_power;
 pub mod slab;

@@ -1,13 +1,13 @@
 //! From columns of amplitudes to the values of one slab, normalised, with the forward peak in it.
 
-use super::forward_peak::{ForwardCells, PeakRows, PeakSample};
+use super::forward_peak::{ForwardCells, PeakRows};
+use super::peak_change::PeakChange;
 use crate::farfield::forward::wave::ForwardWave;
 use crate::farfield::patches::gaussian_filter;
 use crate::farfield::{Column, FarField};
 use crate::optics::{AmplitudeMatrix, mirror_sign};
 use crate::phase_table::{Axes, ForwardPeak, Quantity};
 use ndarray::{Array2, Array3, ArrayViewMut3, Axis, s};
-use num_complex::Complex64;
 use rayon::prelude::*;
 
 /// Settings of one slab.
@@ -32,6 +32,9 @@ pub struct Tabulator<'a> {
     pub shadow_area: f64,
     /// Share of the scattered power that is in no order of the table: what Σ P·ΔΩ lacks to 1.
     pub left_out: f64,
+    /// Whether the forward peak is scaled until the samples of a whole sphere add up: else that is left to
+    /// whoever sums several slabs.
+    pub closes: bool,
     /// [`Thresholds::peak_edge`](crate::farfield::assignment::Thresholds::peak_edge).
     pub peak_edge: f64,
 }
@@ -44,6 +47,8 @@ pub struct Values {
     pub caustic_order: Option<Array2<u8>>,
     /// Sum over the samples before the forward peak was treated.
     pub sum_before_peak: f64,
+    /// What closing the sum has changed.
+    pub peak_change: PeakChange,
     /// Share of the power in the separated peak.
     pub peak_share: f64,
     /// Mean cosine of the scattering angle.
@@ -55,18 +60,16 @@ struct Line {
     /// (element, θ)
     values: Array2<f32>,
     caustic_order: Vec<u8>,
-    forward: Vec<ForwardSample>,
+    /// By cell of the forward peak and element.
+    forward: Vec<PeakPower>,
 }
 
-/// A sample within the forward peak, before the peak is scaled.
-#[derive(Clone, Copy)]
-struct ForwardSample {
-    rest: [[f64; 4]; 4],
-    rest_amplitude: AmplitudeMatrix,
-    /// Diffracted amplitude at the sample, and mean diffracted intensity over its cell.
-    amplitude: AmplitudeMatrix,
-    mean: f64,
-    coarse: bool,
+/// A value within the forward peak as a polynomial of the peak's own scale (the root of the factor on its power):
+/// the rest alone, its interference with the peak, the peak alone.
+type PeakPower = [f64; 3];
+
+fn at_scale([rest, mixed, own]: PeakPower, scale: f64) -> f64 {
+    rest + scale * (mixed + scale * own)
 }
 
 /// Forward diffraction, prepared for one slab.
@@ -89,21 +92,14 @@ impl Tabulator<'_> {
         axes: &Axes,
     ) -> Values {
         let cells = self.forward_cells();
-        let peak = self.peak().map(|peak| Peak {
-            rows: PeakRows::new(
-                &peak,
-                &cells,
-                self.theta,
-                self.forward_peak == ForwardPeak::CellAverage,
-            ),
-            wave: peak,
-        });
+        let peak = self.peak().map(|wave| Peak { rows: PeakRows::new(&wave, &cells), wave });
+        let angles = [&cells.theta, &self.theta[cells.len()..]].concat();
         let lines: Vec<Line> = computed
             .par_chunks(COLUMNS_AT_ONCE)
             .flat_map_iter(|phis| {
-                let columns = far_field.columns(self.theta, phis, !self.interference);
+                let columns = far_field.columns(&angles, phis, !self.interference);
                 let lines = phis.iter().zip(columns);
-                lines.map(|(&phi, column)| self.line(column, phi, &cells, peak.as_ref()))
+                lines.map(|(&phi, column)| self.line(column, phi, &angles, &cells, peak.as_ref()))
             })
             .collect();
         let weights = axes.solid_angle_factors();
@@ -112,22 +108,26 @@ impl Tabulator<'_> {
         fill(values.view_mut(), &lines, places);
         let weights = (&weights.0[..], &weights.1[..]);
         let (factor, sum_before_peak, peak_share) = self.close(&lines, places, weights, &values);
-        self.write_forward(&mut values, &lines, places, factor);
+        let before = self.write_forward(&mut values, &lines, places, factor);
+        let peak_change = match factor == 1.0 {
+            true => PeakChange::NONE,
+            false => PeakChange::new(axes, before.view(), values.index_axis(Axis(0), 0)),
+        };
         let caustic_order = lines.iter().any(|l| !l.caustic_order.is_empty()).then(|| {
             Array2::from_shape_fn((axes.theta.len(), axes.phi.len()), |(i, j)| {
                 lines[places[j].0].caustic_order.get(i).copied().unwrap_or(0)
             })
         });
         let asymmetry = asymmetry(&values, weights, &axes.theta);
-        Values { values, caustic_order, sum_before_peak, peak_share, asymmetry }
+        Values { values, caustic_order, sum_before_peak, peak_change, peak_share, asymmetry }
     }
 
     fn forward_cells(&self) -> ForwardCells {
-        let all = ForwardCells::new(self.theta, self.size_parameter);
         if self.diffraction.is_none() || self.forward_peak == ForwardPeak::Separate {
-            return ForwardCells::none();
+            return ForwardCells::default();
         }
-        all
+        let mean = self.forward_peak == ForwardPeak::CellAverage;
+        ForwardCells::new(self.theta, self.size_parameter, mean)
     }
 
     /// `k² C_sca` in units of the squared size parameter: what divides `S11`.
@@ -140,41 +140,46 @@ impl Tabulator<'_> {
         self.diffraction.filter(|_| self.forward_peak != ForwardPeak::Separate)
     }
 
+    /// A column, of the cells' angles and of the samples beyond.
     fn line(
         &self,
         mut column: Column,
         phi: f64,
+        angles: &[f64],
         cells: &ForwardCells,
         peak: Option<&Peak>,
     ) -> Line {
         let scale = self.scale();
+        let (first, inside) = (cells.len(), cells.theta.len());
         let mut forward = Vec::new();
         if let Some(peak) = peak {
-            let samples = peak.rows.at(phi);
-            let sample = |(i, s)| self.forward_sample(&column, cells, i, s);
-            forward = samples.into_iter().enumerate().map(sample).collect();
-            let beyond = forward.len();
-            let tails = peak.wave.tails(&self.theta[beyond..], phi);
-            for (amplitude, tail) in column.amplitude[beyond..].iter_mut().zip(tails) {
+            forward = self.forward(&column, cells, &peak.rows.at(phi));
+            let tails = peak.wave.tails(&self.theta[first..], phi);
+            for (amplitude, tail) in column.amplitude[inside..].iter_mut().zip(tails) {
                 *amplitude += tail;
             }
         }
         let elements = self.quantity.elements();
         let mut values = Array2::zeros((elements, self.theta.len()));
-        for i in forward.len()..self.theta.len() {
-            self.store(&column, i, |e, value| values[[e, i]] = (value * scale) as f32);
+        for i in first..self.theta.len() {
+            let at = i - first + inside;
+            self.store(&column, at, |e, value| values[[e, i]] = (value * scale) as f32);
         }
         if let Some(sigma) = self.filter {
-            let bows = gaussian_filter::bows(self.theta, &column.rays);
+            let bows = gaussian_filter::bows(angles, &column.rays);
             // the rows of the forward peak are still empty
-            let beyond = forward.len();
-            for mut row in values.slice_mut(s![.., beyond..]).axis_iter_mut(Axis(0)) {
+            for mut row in values.slice_mut(s![.., first..]).axis_iter_mut(Axis(0)) {
                 let raw: Vec<f64> = row.iter().map(|&v| f64::from(v)).collect();
-                let smooth = gaussian_filter::apply(&self.theta[beyond..], &raw, &bows, sigma);
+                let smooth = gaussian_filter::apply(&self.theta[first..], &raw, &bows, sigma);
                 row.iter_mut().zip(smooth).for_each(|(v, s)| *v = s as f32);
             }
         }
-        Line { values, caustic_order: column.caustic_order, forward }
+        let mut caustic_order = column.caustic_order;
+        if !caustic_order.is_empty() {
+            caustic_order =
+                cells.samples().chain(inside..angles.len()).map(|k| caustic_order[k]).collect();
+        }
+        Line { values, caustic_order, forward }
     }
 
     /// Hand every element of sample `i` to `put`.
@@ -191,31 +196,45 @@ impl Tabulator<'_> {
         }
     }
 
-    fn forward_sample(
+    /// The light in the cells of the peak, by cell and element.
+    fn forward(
         &self,
         column: &Column,
         cells: &ForwardCells,
-        i: usize,
-        peak: PeakSample,
-    ) -> ForwardSample {
-        let rest_amplitude = column.amplitude[i];
-        let rest = if self.interference { rest_amplitude.mueller() } else { column.incoherent[i] };
-        let coarse = self.forward_peak == ForwardPeak::CellAverage && cells.is_coarse(i);
-        ForwardSample { rest, rest_amplitude, amplitude: peak.amplitude, mean: peak.mean, coarse }
-    }
-
-    /// Mueller matrix of a forward sample with the diffracted power scaled by `factor`.
-    fn forward_mueller(&self, sample: &ForwardSample, factor: f64) -> [[f64; 4]; 4] {
-        if self.interference && !sample.coarse {
-            let forward = sample.amplitude * Complex64::from(factor.sqrt());
-            return (sample.rest_amplitude + forward).mueller();
+        peak: &[AmplitudeMatrix],
+    ) -> Vec<PeakPower> {
+        let elements = self.quantity.elements();
+        let mut found = vec![PeakPower::default(); cells.len() * elements];
+        let mut angles = (0..cells.theta.len()).zip(peak);
+        for (cell, shares) in found.chunks_exact_mut(elements).zip(&cells.shares) {
+            for (share, (k, &own)) in shares.iter().zip(&mut angles) {
+                let rest = column.amplitude[k];
+                let mut add = |e: usize, rest: f64, mixed: f64, own: f64| {
+                    let sum = &mut cell[e];
+                    *sum = [sum[0] + share * rest, sum[1] + share * mixed, sum[2] + share * own];
+                };
+                if self.interference && elements == 1 {
+                    let (alone, diffracted) = (rest.s11(), own.s11());
+                    add(0, alone, (rest + own).s11() - alone - diffracted, diffracted);
+                } else if self.interference {
+                    let (both, alone, own) =
+                        ((rest + own).mueller(), rest.mueller(), own.mueller());
+                    let alone = alone.iter().flatten().zip(own.iter().flatten());
+                    for (e, (both, (alone, own))) in
+                        both.iter().flatten().zip(alone).take(elements).enumerate()
+                    {
+                        add(e, *alone, both - alone - own, *own);
+                    }
+                } else {
+                    let (rest, own) = (column.incoherent[k], own.mueller());
+                    let both = rest.iter().flatten().zip(own.iter().flatten());
+                    both.take(elements)
+                        .enumerate()
+                        .for_each(|(e, (rest, own))| add(e, *rest, 0.0, *own));
+                }
+            }
         }
-        let power = if sample.coarse { sample.mean } else { sample.amplitude.s11() } * factor;
-        let mut mueller = sample.rest;
-        for (k, row) in mueller.iter_mut().enumerate() {
-            row[k] += power;
-        }
-        mueller
+        found
     }
 
     /// The factor on diffracted power that closes the budget, the sum before it, and the peak's
@@ -227,28 +246,14 @@ impl Tabulator<'_> {
         (theta_weights, phi_weights): (&[f64], &[f64]),
         values: &Array3<f32>,
     ) -> (f64, f64, f64) {
-        let scale = self.scale();
         let rings = ring_powers(values, phi_weights);
         let rest: f64 = rings.iter().zip(theta_weights).map(|(power, w)| power * w).sum();
-        let forward = |factor: f64| -> f64 {
-            let mut sum = 0.0;
-            for (j, (line, _)) in places.iter().enumerate() {
-                for (i, sample) in lines[*line].forward.iter().enumerate() {
-                    sum += theta_weights[i]
-                        * phi_weights[j]
-                        * scale
-                        * self.forward_mueller(sample, factor)[0][0];
-                }
-            }
-            sum
-        };
-        let without = forward(0.0);
-        let with = forward(1.0);
-        let sum_before_peak = rest + with;
+        let [without, mixed, own] = self.peak_sums(lines, places, (theta_weights, phi_weights));
+        let sum_before_peak = rest + without + mixed + own;
         let covers_sphere = {
             let sum = |weights: &[f64]| weights.iter().sum::<f64>();
             let total = sum(theta_weights) * sum(phi_weights);
-            (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
+            self.closes && (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
         };
         let diffracts = self.diffraction.is_some();
         let share = if diffracts { self.shadow_area / self.scattering } else { 0.0 };
@@ -259,14 +264,10 @@ impl Tabulator<'_> {
             let closed = if (missing - share).abs() < edge { missing } else { share };
             return (1.0, sum_before_peak, closed);
         }
-        if self.forward_peak != ForwardPeak::CellAverage || !covers_sphere || with <= without {
+        if self.forward_peak != ForwardPeak::CellAverage || !covers_sphere || own <= 0.0 {
             return (1.0, sum_before_peak, share);
         }
-        // The sum is a + b s + c s² in the root s of the factor: interference of the peak with the rest,
-        // and the peak's own power.
-        let (once, twice) = (with - without, forward(4.0) - without);
-        let own = 0.5 * (twice - 2.0 * once);
-        let mixed = once - own;
+        // the sum is a + b s + c s² in the root s of the factor
         let missing = 1.0 - self.left_out - rest - without;
         let discriminant = (mixed * mixed + 4.0 * own * missing).max(0.0);
         let root = (discriminant.sqrt() - mixed) / (2.0 * own);
@@ -274,24 +275,47 @@ impl Tabulator<'_> {
         (factor, sum_before_peak, share)
     }
 
+    /// Sums over the cells of the peak, by solid angle.
+    fn peak_sums(
+        &self,
+        lines: &[Line],
+        places: &[(usize, bool)],
+        (theta_weights, phi_weights): (&[f64], &[f64]),
+    ) -> PeakPower {
+        let (scale, elements) = (self.scale(), self.quantity.elements());
+        let mut sums = PeakPower::default();
+        for (&(line, _), by_azimuth) in places.iter().zip(phi_weights) {
+            let cells = lines[line].forward.iter().step_by(elements);
+            for (power, by_angle) in cells.zip(theta_weights) {
+                let weight = by_azimuth * by_angle * scale;
+                sums.iter_mut().zip(power).for_each(|(sum, value)| *sum += weight * value);
+            }
+        }
+        sums
+    }
+
+    /// Write the rows of the peak; hands back what they were before its power was scaled, shape (cell, φ).
     fn write_forward(
         &self,
         values: &mut Array3<f32>,
         lines: &[Line],
         places: &[(usize, bool)],
         factor: f64,
-    ) {
+    ) -> Array2<f64> {
         let scale = self.scale();
         let elements = self.quantity.elements();
+        let cells = lines.first().map_or(0, |line| line.forward.len() / elements);
+        let mut before = Array2::zeros((cells, places.len()));
         for (j, &(line, mirrored)) in places.iter().enumerate() {
-            for (i, sample) in lines[line].forward.iter().enumerate() {
-                let mueller = self.forward_mueller(sample, factor);
-                for (e, value) in mueller.iter().flatten().take(elements).enumerate() {
+            for (i, cell) in lines[line].forward.chunks_exact(elements).enumerate() {
+                before[[i, j]] = at_scale(cell[0], 1.0) * scale;
+                for (e, &power) in cell.iter().enumerate() {
                     let sign = if mirrored { mirror_sign(e) } else { 1.0 };
-                    values[[e, i, j]] = (sign * value * scale) as f32;
+                    values[[e, i, j]] = (sign * at_scale(power, factor.sqrt()) * scale) as f32;
                 }
             }
         }
+        before
     }
 }
 
@@ -329,7 +353,7 @@ fn ring_powers(values: &Array3<f32>, phi_weights: &[f64]) -> Vec<f64> {
 }
 
 /// Mean cosine of the scattering angle over the samples.
-fn asymmetry(
+pub fn asymmetry(
     values: &Array3<f32>,
     (theta_weights, phi_weights): (&[f64], &[f64]),
     theta: &[f64],

@@ -9,6 +9,7 @@ mod batch_resume;
 mod cli_bad_input;
 mod hostile_input;
 mod medium_cli;
+mod populations;
 mod rays_contract;
 mod series_bad_input;
 mod tmatrix_contract;

@@ -59,12 +59,22 @@ fn means_that_make_no_sense() {
             "spread = NaN",
         ),
         (
-            &["--size-distribution", "kind=\"delta\", radius_um=1", "--shape", "raindrop"],
-            "only spheres have one; the shape is raindrop",
+            &[
+                "--size-distribution",
+                "kind=\"marshall-palmer\", rain_rate_mm_h=5",
+                "--shape",
+                "raindrop",
+            ],
+            "need both limits",
         ),
         (
-            &["--size-distribution", "kind=\"delta\", radius_um=1", "--method", "rays"],
-            "need a sphere and method = \"mie\"",
+            &[
+                "--size-distribution",
+                "kind=\"gamma\", effective_radius_um=10, effective_variance=0.1",
+                "--method",
+                "debye",
+            ],
+            "means over sizes need a sphere and method = \"mie\"",
         ),
         (&["--radius-um", "5", "--bandwidth-nm", "-3"], "--bandwidth-nm = -3"),
         (&["--radius-um", "5", "--sun-disc", "bright"], "limb-darkened"),

@@ -179,6 +179,22 @@ fn a_radar_sees_a_drop() {
     }
 }
 
+/// Rays of water take a frequency where they take a wavelength.
+#[test]
+fn rays_have_frequencies_too() {
+    let deviations = |flags: &str| json(&format!("rays --count 5 {flags} --json"))["rays"].clone();
+    let ghz = 299_792.458 / 0.5;
+    assert_eq!(deviations(&format!("--frequency-ghz {ghz}")), deviations("--wavelength-nm 500"));
+    for (line, words) in [
+        ("rays --frequency-ghz 6e5 --wavelength-nm 500", "cannot be used"),
+        ("rays --frequency-ghz 6e5 --index 1.3", "cannot be used"),
+        ("rays --frequency-ghz 0", "a positive number is accepted"),
+    ] {
+        let (code, message) = refused(line);
+        assert!(code == Some(2) && message.contains(words), "{line}: {code:?} {message}");
+    }
+}
+
 /// Flags of a radar that have no effect together, and a body without contrast.
 #[test]
 fn what_has_no_effect_is_refused() {

@@ -12,6 +12,7 @@ mod farfield_huygens;
 mod farfield_orders;
 mod farfield_partial_waves;
 mod farfield_spheroid;
+mod forward_rings;
 mod medium_input;
 mod medium_kramers_kronig;
 mod medium_references;

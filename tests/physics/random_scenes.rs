@@ -871,7 +871,9 @@ mod judge {
         if stated.is_nan() {
             return Ok("no error stated");
         }
-        if scene.diffraction == gonio::scene::Diffraction::Airy && scene.interference {
+        if scene.diffraction == gonio::scene::Diffraction::Airy
+            && scene.interference == gonio::scene::Interference::Waves
+        {
             let ext = slab.extinction_cross_section / shadow;
             let right = match &scene.orders {
                 Orders::Auto => q.q_ext,
@@ -881,7 +883,7 @@ mod judge {
             let abs = slab.absorption_cross_section / shadow;
             close("Q_abs by rays", abs, q.q_abs, stated * q.q_ext)?;
         }
-        if scene.orders != Orders::Auto || !scene.interference {
+        if scene.orders != Orders::Auto || scene.interference != gonio::scene::Interference::Waves {
             return Ok("Q of Lorenz–Mie");
         }
         against_mie(scene, table, slab, deformed)

@@ -4,7 +4,7 @@ use crate::cli::failure::{Failure, Result};
 use clap::Args;
 use gonio::hdf5::{AxisValues, SweepReader, TableError, TableReader, decimal_bytes};
 use gonio::math::digits::to_digits;
-use gonio::phase_table::{ERROR_BANDS, TableHeader, error_theta};
+use gonio::phase_table::{BulkOptics, ERROR_BANDS, TableHeader, error_theta};
 use gonio::scene::Named;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -68,6 +68,10 @@ fn common(path: &Path, header: &TableHeader) -> Value {
             "mean_projected_area_m2": number(bodies.mean_area),
             "density_kg_m3": bodies.density.map(number),
             "density_source": bodies.density.map(|_| &bodies.density_source),
+            "mean_cubed_radius_um3": number(bodies.mean_cubed_radius() * 1e18),
+            "number_per_m3": bodies.number_density.map(number),
+            "mass_content_g_m3": bodies.mass_content().map(|content| number(content * 1e3)),
+            "rain_rate_mm_h": bodies.rain_rate.map(|rate| number(rate * 3.6e6)),
         })),
         "averaged_over": header.averaging.words(),
         "tolerance_asked": number(header.tolerance),
@@ -93,6 +97,7 @@ fn describe(path: &Path, reader: &TableReader) -> Result<Value> {
             .iter()
             .map(|&error| if error.is_finite() { json!(to_digits(error, 3)) } else { Value::Null })
             .collect();
+        let optics = BulkOptics::of(header, &slab);
         slabs.push(json!({
             "wavelength_nm": tidy(slab.wavelength * 1e9),
             "index": [slab.index.re, slab.index.im],
@@ -101,6 +106,11 @@ fn describe(path: &Path, reader: &TableReader) -> Result<Value> {
             "absorption_cross_section_m2": slab.absorption_cross_section,
             "extinction_straight_ahead_m2": slab.forward_extinction,
             "asymmetry": slab.asymmetry,
+            "single_scattering_albedo": number(optics.albedo),
+            "backscatter_m2_sr": optics.backscatter.map(number),
+            "backward_depolarisation": optics.depolarisation.map(number),
+            "extinction_per_m": optics.extinction_per_length.map(number),
+            "extinction_m2_kg": optics.extinction_per_mass.map(number),
             "sum": slab.sum(&header.axes),
             "sum_before_peak": slab.sum_before_peak,
             "smallest_per_sr": least,

@@ -32,9 +32,8 @@ pub fn run(args: PlanArgs) -> Result<()> {
     let (computed, _) = plan.computed_azimuths(&azimuths);
     let threads = rayon::current_num_threads();
     let cost = plan.cost(&scene, threads);
-    let tried = Trials::new(&scene, &plan, &computed)?;
-    let seconds = cost.writing_seconds + tried.seconds;
-    let methods = tried.methods(&scene, &plan, &computed)?;
+    let Expected { seconds, methods, sizes } = expected(&scene, &plan, &computed)?;
+    let seconds = cost.writing_seconds + seconds;
     let engine = format!("{:?}", plan.engine);
     if args.json {
         let ranges: Vec<serde_json::Value> = methods.iter().map(as_json).collect();
@@ -45,6 +44,7 @@ pub fn run(args: PlanArgs) -> Result<()> {
             "orders": ranges.first().map(|range| &range["parts"]),
             "ranges": ranges,
             "skipped": skipped,
+            "sizes": sizes,
             "forward_diffraction": plan.forward_diffraction,
             "rotational_symmetry": plan.symmetry == Symmetry::Rotational,
             "wavelengths": scene.wavelengths.len(),
@@ -72,8 +72,8 @@ pub fn run(args: PlanArgs) -> Result<()> {
     for range in &methods {
         print!("{range}");
     }
-    for reason in &plan.reasons {
-        println!("- {reason}");
+    for words in sizes.iter().chain(&plan.reasons) {
+        println!("- {words}");
     }
     println!(
         "expected: {seconds:.1} s of processor time ({:.1} s on {threads} idle cores), {} of memory",
@@ -96,6 +96,53 @@ fn as_json(planned: &PlannedRange) -> serde_json::Value {
         json["rest_of_time"] = serde_json::json!(rest);
     }
     json
+}
+
+/// What a table takes beside its file, and who computes what.
+struct Expected {
+    /// Of processor time.
+    seconds: f64,
+    methods: Vec<PlannedRange>,
+    /// How many radii stand for distributions of sizes, in words.
+    sizes: Vec<String>,
+}
+
+/// Compute some wavelengths; of many drops by rays one drop of each order.
+fn expected(scene: &Scene, plan: &Plan, computed: &[f64]) -> Result<Expected> {
+    let steps = simulate::steps_of_kinds(scene, plan)?;
+    if steps.iter().all(Option::is_none) {
+        let tried = Trials::new(scene, plan, computed)?;
+        let methods = tried.methods(scene, plan, computed)?;
+        return Ok(Expected { seconds: tried.seconds, methods, sizes: Vec::new() });
+    }
+    let mut all = Expected { seconds: 0.0, methods: Vec::new(), sizes: Vec::new() };
+    let plans = if plan.parts.is_empty() { std::slice::from_ref(plan) } else { &plan.parts };
+    for ((part, plan), steps) in scene.parts().iter().zip(plans).zip(&steps) {
+        all.methods.extend(plan.methods(part)?);
+        let Some(steps) = steps else {
+            all.seconds += Trials::new(part, plan, computed)?.seconds;
+            continue;
+        };
+        let seconds = steps.forecast(part, plan, |work| {
+            let watch = CpuTime::start();
+            work()?;
+            Ok(watch.seconds())
+        })?;
+        all.seconds += seconds * scene.wavelengths.len() as f64;
+        all.sizes.extend(steps.words());
+        let error = steps.expected_error;
+        all.sizes.push(format!(
+            "the mean over these sizes is expected to err by {:.1} %",
+            100.0 * error
+        ));
+        if error > scene.tolerance {
+            all.sizes.push(format!(
+                "that is more than the tolerance asked for, {}; the table will be marked",
+                scene.tolerance
+            ));
+        }
+    }
+    Ok(all)
 }
 
 /// Processor time that trials take at least, so that the clock's ticks do not matter.

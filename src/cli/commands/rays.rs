@@ -6,6 +6,7 @@ use crate::cli::args::particle::{
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot::write_whole;
 use clap::Args;
+use gonio::medium::wavelength_of_ghz;
 use gonio::render::draw_ray_paths;
 use gonio::shape::Shape;
 use gonio::trace::{PlaneRay, Rainbow, SymmetryPlane, Tracer};
@@ -38,6 +39,9 @@ pub struct RaysArgs {
     /// Wavelength of water's index (default 589.3)
     #[arg(long, conflicts_with = "index")]
     wavelength_nm: Option<f64>,
+    /// Frequency in place of the wavelength
+    #[arg(long, value_name = "GHZ", conflicts_with_all = ["index", "wavelength_nm"])]
+    frequency_ghz: Option<f64>,
     /// Number of chords inside the drop
     #[arg(long, default_value_t = 2)]
     order: u32,
@@ -55,11 +59,22 @@ pub struct RaysArgs {
 const MOST_RAYS: usize = 1_000_000;
 const HIGHEST_ORDER: u32 = 200;
 
+/// Metres.
+fn wavelength(args: &RaysArgs) -> Result<f64> {
+    match args.frequency_ghz {
+        Some(ghz) if ghz > 0.0 && ghz.is_finite() => Ok(wavelength_of_ghz(ghz)),
+        Some(ghz) => {
+            Err(Failure::usage(format!("--frequency-ghz {ghz}: a positive number is accepted")))
+        }
+        None => Ok(args.wavelength_nm.unwrap_or(589.3) * 1e-9),
+    }
+}
+
 pub fn run(args: RaysArgs) -> Result<()> {
     let shape = shape(&args)?;
     let index = match args.index {
         Some(Index(index)) => index,
-        None => water_index(args.wavelength_nm.unwrap_or(589.3) * 1e-9)?,
+        None => water_index(wavelength(&args)?)?,
     };
     if !(2..=MOST_RAYS).contains(&args.count) {
         let message = format!("--count {}: 2 to {MOST_RAYS} is accepted", args.count);

@@ -47,3 +47,43 @@ fn blend_with<const FMA: bool>(
         *knot.channels_mut() = sum;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn knots(of: impl Fn(usize, usize) -> f64) -> Vec<Knot> {
+        let knot = |i| {
+            let mut knot = Knot::default();
+            *knot.channels_mut() = std::array::from_fn(|c| of(i, c));
+            knot
+        };
+        (0..5).map(knot).collect()
+    }
+
+    /// Channel by channel with weights of its own; a missing knot of one plane ends all.
+    #[test]
+    fn sums_are_weighted_channel_by_channel() {
+        let planes: Vec<Vec<Knot>> = (0..STENCIL)
+            .map(|plane| knots(|i, c| (plane * 100 + i * 10 + c) as f64 / 7.0))
+            .collect();
+        let weights: [Weights; STENCIL] = std::array::from_fn(|plane| {
+            std::array::from_fn(|c| (1.0 + plane as f64) * 0.3 - c as f64 * 0.01)
+        });
+        let mut sources: [&[Knot]; STENCIL] = std::array::from_fn(|plane| planes[plane].as_slice());
+        let mut found = knots(|_, _| -1.0);
+        blend(&mut found, &sources, &weights);
+        for (i, knot) in found.iter().enumerate() {
+            for c in 0..CHANNELS {
+                let known: f64 = (planes.iter().zip(&weights))
+                    .map(|(plane, weights)| plane[i].channels()[c] * weights[c])
+                    .sum();
+                assert!((knot.channels()[c] - known).abs() < 1e-12 * known.abs().max(1.0));
+            }
+        }
+        sources[3] = &planes[3][..2];
+        let mut short = knots(|_, _| -1.0);
+        blend(&mut short, &sources, &weights);
+        assert_eq!((short[1], short[2]), (found[1], knots(|_, _| -1.0)[2]));
+    }
+}

@@ -56,3 +56,23 @@ impl PairValues {
         Self { sums: negated(self.sums), differences: negated(self.differences), ..self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_sheets_of_the_roots_are_told_apart() {
+        let values = PairValues::from(std::array::from_fn(|c| c as f64 - 6.5));
+        assert_eq!(<[f64; PAIR_CHANNELS]>::from(values), std::array::from_fn(|c| c as f64 - 6.5));
+        assert_eq!((values.path, values.zeta, values.sums[0].im), (-6.5, -5.5, -3.5));
+        let other = values.negated();
+        assert!(values.agrees_with(&values) && !values.agrees_with(&other));
+        // paths and ζ̂ are the same on both sheets
+        assert_eq!(
+            (other.path, other.zeta, other.size()),
+            (values.path, values.zeta, values.size())
+        );
+        assert_eq!(other.negated(), values);
+    }
+}

@@ -52,3 +52,27 @@ pub(crate) fn central_ray(
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use num_complex::Complex64;
+
+    /// The central ray's line misses the centre by rounding; upright bodies have it on the axis of the shadow.
+    #[test]
+    fn the_line_goes_through_the_centre() {
+        for (elevation, aside) in [(0.0, false), (0.4, true)] {
+            let shape = Shape::spheroid(0.8, elevation).unwrap();
+            let tracer = Tracer::new(&shape, Complex64::from(1.33), 100.0, 2);
+            let silhouette = shape.silhouette();
+            for order in [1, 2] {
+                let place = central_ray(&tracer, &silhouette, order, true).unwrap();
+                let exit = tracer.trace_order(place[0], place[1], order).unwrap();
+                assert!(exit.reference.dot(exit.reference).sqrt() < 1e-12, "{elevation} {order}");
+                assert_eq!(place[0].hypot(place[1]) > 1e-6, aside, "{elevation} {order} {place:?}");
+            }
+            assert_eq!(central_ray(&tracer, &silhouette, 1, false), Some([0.0; 2]));
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::phase_table::{Averaging, Bodies, DiscOfSun, TableHeader};
 type Getter = fn(&TableHeader) -> f64;
 
 /// Numbers of a header beside radius and sun: name, units, words, value (NaN: not known).
-const NUMBERS: [(&str, &str, &str, Getter); 8] = [
+const NUMBERS: [(&str, &str, &str, Getter); 10] = [
     ("size_effective_radius", "um", "effective radius, 3/4 volume over projected area", |h| {
         body(h, |b| b.effective_radius * 1e6)
     }),
@@ -34,7 +34,19 @@ const NUMBERS: [(&str, &str, &str, Getter); 8] = [
         |h| h.averaging.filter.to_degrees(),
     ),
     ("tolerance_asked", "1", "relative error that was asked for", |h| h.tolerance),
+    ("number_density", "m-3", "particles per volume of air, NaN where not known", |h| {
+        body(h, |b| b.number_density.unwrap_or(f64::NAN))
+    }),
+    (
+        "rain_rate",
+        "mm h-1",
+        "volume of water that falls per area and time, NaN where not known",
+        |h| body(h, |b| b.rain_rate.map_or(f64::NAN, |rate| rate * MM_H)),
+    ),
 ];
+
+/// mm/h in one m/s.
+const MM_H: f64 = 3.6e6;
 
 fn body(header: &TableHeader, value: impl Fn(&Bodies) -> f64) -> f64 {
     header.bodies.as_ref().map_or(f64::NAN, value)
@@ -136,7 +148,8 @@ pub fn read_numbers(
             data.read_block::<f64>(leading, &ones)?.first().copied().unwrap_or(f64::NAN)
         };
     }
-    let [radius, variance, volume, area, density, bandwidth, filter, tolerance] = values;
+    let [radius, variance, volume, area, density, bandwidth, filter, tolerance, number, rain] =
+        values;
     let bodies = (!volume.is_nan()).then_some(Bodies {
         effective_radius: radius * 1e-6,
         effective_variance: variance,
@@ -144,6 +157,8 @@ pub fn read_numbers(
         mean_area: area,
         density: (!density.is_nan()).then_some(density),
         density_source: file.text("density_source")?.unwrap_or_default(),
+        number_density: (!number.is_nan()).then_some(number),
+        rain_rate: (!rain.is_nan()).then_some(rain / MM_H),
     });
     let disc = file.text("averaged_over_sun_disc")?;
     let disc_of = |name: &str| {

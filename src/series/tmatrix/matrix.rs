@@ -19,12 +19,14 @@ pub struct TMatrix {
     pub(super) solver: Solver,
     pub(super) degrees: usize,
     pub(super) asymmetry: f64,
+    /// Error by what the last degrees have changed, where that was tried.
+    pub(super) drift: f64,
 }
 
 impl TMatrix {
     /// Estimated error of amplitudes, root mean square over all directions, relative to their own.
     pub fn error(&self) -> f64 {
-        range::error_of(self.asymmetry)
+        range::error_of(self.asymmetry, self.degrees).max(self.drift)
     }
 
     /// Relative norm of what reciprocity says should vanish.
@@ -47,6 +49,19 @@ impl TMatrix {
         self.index
     }
 
+    /// Relative norm of the difference to a T of more degrees.
+    pub(super) fn distance(&self, finer: &Self) -> f64 {
+        let weight = |m: usize| if m == 0 { 1.0 } else { 2.0 };
+        let (mut norm, mut distance) = (0.0, 0.0);
+        for (m, block) in finer.blocks.iter().enumerate() {
+            let square = block.norm_and_oddness().0;
+            norm += weight(m) * square;
+            let known = self.blocks.get(m).map(|own| own.squared_distance(block));
+            distance += weight(m) * known.unwrap_or(square);
+        }
+        (distance / norm).sqrt()
+    }
+
     /// k times the height of the waves' origin.
     pub(super) fn shift(&self) -> f64 {
         self.size_parameter * self.origin
@@ -64,5 +79,22 @@ impl TMatrix {
             scattering += weight * block.norm_and_oddness().0;
         }
         (extinction, scattering)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+
+    /// A T of a few more degrees is as far away as it says; itself it is not away from.
+    #[test]
+    fn distances_are_about_the_stated_errors() {
+        let shape = Shape::spheroid(0.7, 0.0).unwrap();
+        let of = |tolerance| TMatrix::new(&shape, 6.0, Complex64::from(1.4), tolerance).unwrap();
+        let (rough, fine) = (of(1e-2), of(1e-9));
+        assert_eq!(fine.distance(&fine), 0.0);
+        let distance = rough.distance(&fine);
+        assert!((0.1..10.0).contains(&(rough.error() / distance)), "{} {distance}", rough.error());
     }
 }

@@ -43,3 +43,31 @@ impl Sections {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use num_complex::Complex64;
+
+    /// What does not add up is an error where nothing may be absorbed, and absorption where something may.
+    #[test]
+    fn sections_are_in_balance() {
+        let of = |k: f64, q_sca: f64| {
+            let t = TMatrix::new(&Shape::sphere(), 1.0, Complex64::new(1.3, k), 1e-3).unwrap();
+            let q =
+                FixedEfficiencies { q_ext: 2.0, q_ahead: 2.0, q_sca, q_back: 0.5, asymmetry: 0.1 };
+            Sections::new(&q, &t)
+        };
+        for (k, q_sca, absorption, lost) in [
+            (0.0, 1.5, 0.0, 0.25),
+            (0.1, 1.5, 0.5, 0.0),
+            (0.1, 2.5, 0.0, 0.25),
+            (0.0, 2.0, 0.0, 0.0),
+        ] {
+            let found = of(k, q_sca);
+            assert_eq!((found.absorption, found.lost), (absorption, lost));
+            assert_eq!(found.extinction, found.scattering + found.absorption);
+        }
+    }
+}

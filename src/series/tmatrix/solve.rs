@@ -7,7 +7,8 @@
 use super::kernel::block::OrderBlock;
 use super::kernel::error::TMatrixError;
 use super::kernel::range::{
-    self, Expectation, LEAST_SIZE, MOST_DEGREES, MOST_FITTED, STALLED, Solver,
+    self, DRIFT_STEP, Expectation, LEAST_SIZE, MOST_DEGREES, MOST_FITTED, RESONANCES_LOST, STALLED,
+    Solver,
 };
 use super::kernel::surface::Surface;
 use super::kernel::waves::{NodeWaves, on_surface};
@@ -34,8 +35,14 @@ impl TMatrix {
         let problem = Problem::new(shape, size_parameter, index)?;
         let choice = problem.choose(tolerance, f64::INFINITY)?;
         let found = problem.all_orders(choice.solver, choice.degrees)?;
+        let found =
+            if range::asymmetry_is_silent(choice.degrees, index) && found.error() <= tolerance {
+                problem.settled(found, tolerance)?
+            } else {
+                found
+            };
         if found.error() > tolerance {
-            return Err(problem.not_converged(tolerance, found.error(), choice.degrees));
+            return Err(problem.not_converged(tolerance, found.error(), found.degrees));
         }
         Ok(found)
     }
@@ -132,7 +139,7 @@ impl<'a> Problem<'a> {
                 continue;
             }
             let (degrees, asymmetry) = self.best_top(solver, range::aim(tolerance), seconds)?;
-            let (error, cpu_seconds) = (range::error_of(asymmetry), cost(degrees));
+            let (error, cpu_seconds) = (range::error_of(asymmetry, degrees), cost(degrees));
             let found = Outlook { solver, degrees, error, cpu_seconds };
             if error <= tolerance {
                 return Ok(found);
@@ -216,6 +223,38 @@ impl<'a> Problem<'a> {
         Ok(best)
     }
 
+    /// T with as many degrees as change no more than the tolerance; else the best that was found.
+    fn settled(&self, first: TMatrix, tolerance: f64) -> Result<TMatrix, TMatrixError> {
+        let most = match first.solver {
+            Solver::NullField => MOST_DEGREES,
+            Solver::LeastSquares => MOST_FITTED,
+        };
+        let step = (self.first_top() / 16).max(2);
+        let first = match first.degrees + DRIFT_STEP > most {
+            true => self.all_orders(first.solver, most - DRIFT_STEP)?,
+            false => first,
+        };
+        let (mut coarse, mut best, mut stalled) = (first, None::<TMatrix>, 0);
+        while coarse.degrees + DRIFT_STEP <= most && stalled < STALLED {
+            let mut finer = self.all_orders(coarse.solver, coarse.degrees + DRIFT_STEP)?;
+            let change = coarse.distance(&finer);
+            finer.drift = range::error_of_change(change, coarse.asymmetry, finer.asymmetry);
+            if finer.error() <= tolerance && change <= RESONANCES_LOST {
+                return Ok(finer);
+            }
+            let next = finer.degrees + step;
+            match &best {
+                Some(known) if known.error() <= finer.error() => stalled += 1,
+                _ => (best, stalled) = (Some(finer), 0),
+            }
+            if next > most {
+                break;
+            }
+            coarse = self.all_orders(coarse.solver, next)?;
+        }
+        Ok(best.unwrap_or(coarse))
+    }
+
     /// All orders, in batches, until those that follow are nothing.
     fn all_orders(&self, solver: Solver, top: usize) -> Result<TMatrix, TMatrixError> {
         const NOTHING: f64 = 1e-32;
@@ -253,6 +292,7 @@ impl<'a> Problem<'a> {
             solver,
             degrees: top,
             asymmetry,
+            drift: 0.0,
         })
     }
 }

@@ -76,3 +76,30 @@ impl StatedError {
         Self { weighted: self.weighted.max(least), by_band: self.by_band.max(least), ..self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Shape;
+    use num_complex::Complex64;
+
+    /// What is off is the same in every direction: dim ones state more, and no band more than all of its light.
+    #[test]
+    fn dim_directions_state_more() {
+        let shape = Shape::spheroid(0.8, 0.0).unwrap();
+        let mut t = TMatrix::new(&shape, 20.0, Complex64::from(1.333), 1e-3).unwrap();
+        t.drift = 1e-3;
+        let scattered = Scattered::new(&t, 0.3);
+        let fixed = StatedError::of_fixed(&t, &scattered);
+        let ahead = fixed.by_direction[0];
+        let largest = fixed.by_direction.iter().copied().fold(0.0, f64::max);
+        assert!(ahead < 1e-3 && largest > 1e-3 && largest < 2.0, "{ahead} {largest}");
+        assert!(fixed.weighted < fixed.by_band);
+        let random = StatedError::of_random(&t, &RandomOrientation::new(&t, 1e-4).unwrap());
+        assert!(random.by_direction[0] < random.by_band);
+        assert_eq!(fixed.at_least(0.5).by_band, 0.5);
+        t.drift = 2e-3;
+        let doubled = StatedError::of_fixed(&t, &scattered);
+        assert!((doubled.weighted / fixed.weighted - 2.0).abs() < 1e-2);
+    }
+}

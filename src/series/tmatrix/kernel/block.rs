@@ -70,6 +70,26 @@ impl OrderBlock {
         (norm, odd)
     }
 
+    /// Squared norm of the difference to a block of the same order with at least as many degrees.
+    pub(in crate::series::tmatrix) fn squared_distance(&self, finer: &Self) -> f64 {
+        let (own, all) = (self.degrees(), finer.degrees());
+        let here = |i: usize| {
+            let (electric, degree) = (i / all, i % all);
+            (degree < own).then_some(electric * own + degree)
+        };
+        let mut sum = 0.0;
+        for k in 0..2 * all {
+            for i in 0..2 * all {
+                let known = match (here(i), here(k)) {
+                    (Some(i), Some(k)) => self.t[(i, k)],
+                    _ => Complex64::ZERO,
+                };
+                sum += (finer.t[(i, k)] - known).norm_sqr();
+            }
+        }
+        sum
+    }
+
     pub(in crate::series::tmatrix) fn symmetrise(&mut self) {
         for k in 0..self.t.ncols() {
             for i in 0..k {
@@ -77,5 +97,30 @@ impl OrderBlock {
                 (self.t[(i, k)], self.t[(k, i)]) = (mean, mean);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Waves that one block has and the other has not count whole; equal ones do not count, wherever they stand.
+    #[test]
+    fn distances_are_between_equal_waves() {
+        let fill = |top: usize| {
+            let mut block = OrderBlock::zero(1, top);
+            let degrees = block.degrees();
+            for k in 0..2 * degrees {
+                for i in 0..2 * degrees {
+                    let place = |i: usize| 100 * (i / degrees) + i % degrees;
+                    block.t[(i, k)] = Complex64::new(place(i) as f64, place(k) as f64);
+                }
+            }
+            block
+        };
+        let (coarse, fine) = (fill(3), fill(4));
+        assert_eq!(fine.squared_distance(&fine), 0.0);
+        let rest = fine.norm_and_oddness().0 - coarse.norm_and_oddness().0;
+        assert!((coarse.squared_distance(&fine) - rest).abs() < 1e-9 * rest);
     }
 }

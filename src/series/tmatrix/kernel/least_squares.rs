@@ -138,3 +138,32 @@ fn plain(system: &System) -> Vec<(bool, usize)> {
     let magnetic = system.magnetic.iter().map(|&n| (false, n));
     magnetic.chain(system.electric.iter().map(|&n| (true, n))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::series::tmatrix::kernel::null_field;
+    use crate::series::tmatrix::kernel::surface::Surface;
+    use crate::series::tmatrix::kernel::waves::on_surface;
+    use crate::shape::Shape;
+
+    /// Both methods find the T of a body that both bear; a plane of symmetry saves work and changes nothing.
+    #[test]
+    fn the_fit_and_the_null_field_agree() {
+        let (x, index, top, kept) = (3.0, Complex64::new(1.4, 0.02), 20, 13);
+        let shape = Shape::spheroid(0.8, 0.0).unwrap();
+        let mut surface = Surface::new(&shape).unwrap();
+        let half = on_surface(&surface.nodes(60).unwrap(), x, index, top);
+        surface.mirror = false;
+        let whole = on_surface(&surface.nodes(60).unwrap(), x, index, top);
+        for m in [0, 1, 2] {
+            let fit = order_block(&whole, index, m, (top, kept), false);
+            let mirrored = order_block(&half, index, m, (top, kept), true);
+            let known = null_field::order_block(&half, index, m, top, true);
+            let norm = known.norm_and_oddness().0;
+            let apart =
+                (fit.squared_distance(&known) / norm, fit.squared_distance(&mirrored) / norm);
+            assert!(apart.0 < 1e-14 && apart.1 < 1e-18, "{m} {apart:?}");
+        }
+    }
+}

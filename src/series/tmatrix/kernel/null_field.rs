@@ -179,3 +179,37 @@ where
     let along = derivative * tau + radial.across[n] * (slope * angle.d[n] * scale);
     [derivative * pi, along, z * pi, z * tau]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::series::lorenz_mie::Sphere;
+    use crate::series::tmatrix::kernel::surface::Surface;
+    use crate::series::tmatrix::kernel::waves::on_surface;
+    use crate::shape::Shape;
+
+    /// Waves of a sphere do not couple, and its coefficients are those of Lorenz and Mie, whatever the order.
+    #[test]
+    fn a_sphere_has_the_coefficients_of_lorenz_and_mie() {
+        let (shape, x, top) = (Shape::sphere(), 4.0, 10);
+        for index in [Complex64::new(1.333, 0.0), Complex64::new(1.5, 0.3)] {
+            let series = Sphere::new(x, index).unwrap();
+            let mut surface = Surface::new(&shape).unwrap();
+            for (m, mirror) in [(0, true), (1, true), (1, false), (3, false)] {
+                surface.mirror = mirror;
+                let waves = on_surface(&surface.nodes(40).unwrap(), x, index, top);
+                let block = order_block(&waves, index, m, top, mirror);
+                let degrees = block.degrees();
+                for i in 0..2 * degrees {
+                    for k in 0..2 * degrees {
+                        let n = block.first() + i % degrees;
+                        let list = if i < degrees { series.b() } else { series.a() };
+                        let known = if i == k { -list[n - 1] } else { Complex64::ZERO };
+                        let error = (block.t[(i, k)] - known).norm();
+                        assert!(error < 1e-10, "{index} {m} {i} {k}: {} {known}", block.t[(i, k)]);
+                    }
+                }
+            }
+        }
+    }
+}

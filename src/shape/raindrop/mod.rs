@@ -8,13 +8,17 @@
 //! deformation shrinks with the square of the radius, as balance of pressure and surface tension
 //! asks for small drops.
 
+mod axis_ratio;
+
+pub use axis_ratio::AxisRatioLaw;
+
 use super::error::ShapeError;
 use super::level::{Level, Slope};
 use crate::math::scalar::Scalar;
 use std::f64::consts::PI;
 
-const BEARD_CHUANG_1987: &str = include_str!("../../data/drops/raindrop_beard_chuang_1987.csv");
-const CHUANG_BEARD_1990: &str = include_str!("../../data/drops/raindrop_chuang_beard_1990.csv");
+const BEARD_CHUANG_1987: &str = include_str!("../../../data/drops/raindrop_beard_chuang_1987.csv");
+const CHUANG_BEARD_1990: &str = include_str!("../../../data/drops/raindrop_chuang_beard_1990.csv");
 
 /// Radius up to which the 1987 model takes a drop for a sphere (Sadeghi et al. 2012, Table I).
 const SPHERE_UP_TO: f64 = 0.4e-3;
@@ -63,6 +67,14 @@ impl RaindropModel {
                 (numbers[1] * 1e-3, numbers[2..].iter().enumerate().map(signed).collect())
             })
             .collect()
+    }
+
+    /// Radius up to which drops are spheres, metres; `None` where all are flattened.
+    pub fn sphere_up_to(self) -> Option<f64> {
+        match self {
+            Self::BeardChuang1987 => Some(SPHERE_UP_TO),
+            Self::ChuangBeard1990 => None,
+        }
     }
 
     /// Coefficients `c_n` at a radius of equal volume (metres) inside the model's range.
