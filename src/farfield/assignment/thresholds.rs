@@ -60,7 +60,8 @@ pub struct Thresholds {
     /// How many times that for bodies that look the same from below: planes of a spheroid of axis ratio 0.9
     /// are reciprocal within 1e-4 up to order 3.
     pub wavefront_mirror: f64,
-    /// Size parameter from which on such a sum serves: its window is a twentieth of a radian wide there.
+    /// Size parameter from which on such a sum serves: below, orders from 5 on lose more than
+    /// half of their light.
     pub wavefront_from: f64,
     /// How far planes may differ from what their neighbours make of them (radians of phase, or share of
     /// the wave) to be interpolated over azimuth; interpolation between them has half the step and more
@@ -159,7 +160,7 @@ impl Thresholds {
         first_high_order: 4,
         wavefront: [[0.165, 0.195], [0.19, 0.24], [0.29, 0.33], [0.055, 0.068]],
         wavefront_mirror: 2.0,
-        wavefront_from: 600.0,
+        wavefront_from: 1000.0,
         roughest: 0.2,
         last_smoothed_order: 3,
         first_sparse_order: 3,

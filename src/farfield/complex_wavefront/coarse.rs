@@ -7,6 +7,7 @@
 
 use super::channels::{
     CHANNELS, Channels, DIRECTION, FIELDS, PATH, Place, REFERENCE, by_launch, channels, steps,
+    width,
 };
 use crate::math::vec3::Vec3;
 use crate::shape::Silhouette;
@@ -44,6 +45,8 @@ pub(super) enum Kind {
 pub(super) struct Cell {
     pub kind: Kind,
     pub centre: Vec3<f64>,
+    /// Least area in `(α, ψ)` that the wave of a ray at its corners stands for.
+    pub width: f64,
     /// Angle from the centre within which all rays leave.
     pub radius: f64,
 }
@@ -54,6 +57,7 @@ pub(super) type Steps = Vec<[f64; 2]>;
 /// The coarse rays of one order.
 pub(super) struct CoarseGrid {
     nodes: Vec<Option<Channels>>,
+    widths: Vec<f64>,
     cells: Vec<Cell>,
     rims: Vec<f64>,
     pub steps: Steps,
@@ -70,6 +74,7 @@ pub(super) struct Rows {
 struct Node {
     channels: Channels,
     steps: [f64; 2],
+    width: f64,
 }
 
 impl CoarseGrid {
@@ -112,7 +117,12 @@ impl CoarseGrid {
                 let steps = (0..RINGS)
                     .map(|i| ring_steps((0..half).filter_map(|j| traced[i * half + j][p].as_ref())))
                     .collect();
-                let mut grid = Self { nodes, cells: Vec::new(), rims: rims.clone(), steps };
+                let of_node = |i: usize, j: usize| {
+                    let node = traced[i * half + j.min(SPOKES - j)][p].as_ref();
+                    node.map_or(f64::INFINITY, |n| n.width)
+                };
+                let widths = (0..RINGS * SPOKES).map(|n| of_node(n / SPOKES, n % SPOKES)).collect();
+                let mut grid = Self { nodes, widths, cells: Vec::new(), rims: rims.clone(), steps };
                 let probe = |i: usize, j: usize| {
                     let folded = if j < half - 1 { j } else { SPOKES - 1 - j };
                     let found = probes[i * (half - 1) + folded][p]?;
@@ -184,7 +194,8 @@ impl CoarseGrid {
         probe: impl Fn(usize, usize) -> Option<Channels>,
         x: f64,
     ) -> Cell {
-        let empty = Cell { kind: Kind::Empty, centre: Vec3::default(), radius: 0.0 };
+        let empty =
+            Cell { kind: Kind::Empty, centre: Vec3::default(), width: f64::INFINITY, radius: 0.0 };
         if i == RINGS - 1 {
             return empty;
         }
@@ -194,10 +205,14 @@ impl CoarseGrid {
             .flat_map(|a| (j - 2..j + 4).map(move |b| (a, b)))
             .filter_map(|(a, b)| self.node(a, b))
             .collect();
-        let corners: Vec<&Channels> = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)]
+        let at_corners = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)];
+        let spokes = SPOKES as i64;
+        let width = at_corners
+            .map(|(a, b)| self.widths[(a * spokes + b.rem_euclid(spokes)) as usize])
             .into_iter()
-            .filter_map(|(a, b)| self.node(a, b))
-            .collect();
+            .fold(f64::INFINITY, f64::min);
+        let corners: Vec<&Channels> =
+            at_corners.into_iter().filter_map(|(a, b)| self.node(a, b)).collect();
         let middle = probe(i as usize, j as usize);
         let known: Vec<Vec3<f64>> = corners.iter().copied().chain(&middle).map(direction).collect();
         if known.is_empty() {
@@ -212,17 +227,16 @@ impl CoarseGrid {
                 let rows = self.rows(alpha(i as usize) + 0.5 * RING);
                 let psi = TAU * (j as f64 + 0.5) / SPOKES as f64;
                 let found = blend(&self.row(&rows, j as usize), psi, j as usize);
-                let strongest = around.iter().map(|n| strength(n)).fold(0.0, f64::max);
-                agrees(&found, &middle, strongest, x)
+                agrees(&found, &middle, bounded_strength(&around), x)
             });
         let at_a_border = i == 0 || i == RINGS as i64 - 2;
         if smooth {
             let room = if at_a_border { 2.0 } else { 1.1 };
-            return Cell { kind: Kind::Smooth, centre, radius: room * widest };
+            return Cell { kind: Kind::Smooth, centre, width, radius: room * widest };
         }
         // next to total reflection directions run like a square root
         let radius = 2.0 * widest + 0.5 * RING.sqrt();
-        Cell { kind: Kind::Edge, centre, radius }
+        Cell { kind: Kind::Edge, centre, width, radius }
     }
 }
 
@@ -245,7 +259,9 @@ impl Node {
     ) -> Option<Self> {
         let (rim, slope) = silhouette.radius_and_slope(at[1]);
         let channels = channels(exit, place, rim * rim)?;
-        Some(Self { channels, steps: steps(by_launch(exit, at, (rim, slope)), x, place) })
+        let tangents = by_launch(exit, at, (rim, slope));
+        let (steps, width) = (steps(tangents, x, place), width(tangents, x, place));
+        Some(Self { channels, steps, width })
     }
 }
 
@@ -326,6 +342,15 @@ fn direction(channels: &Channels) -> Vec3<f64> {
 
 fn strength(channels: &Channels) -> f64 {
     channels[FIELDS..].iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// The strongest field of some rays; one next to a singularity does not speak for the others.
+fn bounded_strength(rays: &[&Channels]) -> f64 {
+    const MOST: f64 = 4.0;
+    let mut all: Vec<f64> = rays.iter().map(|ray| strength(ray)).collect();
+    all.sort_by(f64::total_cmp);
+    let median = all.get(all.len() / 2).copied().unwrap_or(0.0);
+    all.last().map_or(0.0, |strongest| strongest.min(MOST * median))
 }
 
 /// Whether interpolated channels serve for those of the traced ray.

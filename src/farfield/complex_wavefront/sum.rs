@@ -111,6 +111,9 @@ impl<'a> ComplexWavefront<'a> {
                 if points.is_empty() {
                     continue;
                 }
+                // rays of smooth cells, whose wave is narrower than a step of the lattice, stand for no more
+                let narrow = if cell.kind == Kind::Smooth { cell.width / ring.step() } else { 1.0 };
+                let weight = ring.weight * self.share * narrow.min(1.0);
                 let values = (cell.kind == Kind::Smooth).then(|| self.grid.row(&rows, spoke));
                 for point in points {
                     let psi = ring.azimuth(point);
@@ -119,7 +122,7 @@ impl<'a> ComplexWavefront<'a> {
                         None => self.traced(ring, psi),
                     };
                     let Some(channels) = found else { continue };
-                    let ray = Ray::new(&channels, ring.weight * self.share, self.place, x);
+                    let ray = Ray::new(&channels, weight, self.place, x);
                     for &c in &near {
                         columns[c].add(&ray, window);
                     }
