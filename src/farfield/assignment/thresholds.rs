@@ -50,6 +50,9 @@ pub struct Thresholds {
     /// wider gaps about the axis, steps closer by half, and waves of the rim; partial waves of it leave
     /// out the steep rays at the middle of the shadow, which hold next to nothing and stray far.
     pub first_high_order: u32,
+    /// Caustic disorder from which on planes of such orders no longer match across the axis, unless an
+    /// integral stands for the rays near the rim.
+    pub hopeless_disorder: f64,
     /// Caustic disorder over which a sum on a complex wavefront takes over from planes: of orders 1, 2, 3, and
     /// that of order [`Thresholds::first_high_order`] for all from it on. Raindrops with the sun at 20°: planes of
     /// order 1 miss all of some azimuths from 1.8 mm on (0.205), those of order 2 are within 0.2 % of an
@@ -158,6 +161,7 @@ impl Thresholds {
         most_t_matrix_strain: 9.0,
         partial_waves_below: 600.0,
         first_high_order: 4,
+        hopeless_disorder: 0.068,
         wavefront: [[0.165, 0.195], [0.19, 0.24], [0.29, 0.33], [0.055, 0.068]],
         wavefront_mirror: 2.0,
         wavefront_from: 1000.0,
@@ -223,6 +227,11 @@ impl Thresholds {
     /// Whether an order of a particle may need an integral where its rays near total reflection.
     pub fn near_critical_serves(&self, order: u32, rotational: bool) -> bool {
         order == self.near_critical_order && !rotational
+    }
+
+    /// Whether planes of an order do not match across the axis without an integral near the rim.
+    pub fn is_hopeless(&self, order: u32, caustic_disorder: f64) -> bool {
+        self.is_high(order) && caustic_disorder > self.hopeless_disorder
     }
 
     /// The caustic disorder over which a sum on a complex wavefront takes over; `mirror` says whether the body

@@ -110,7 +110,8 @@ impl OrderPlanes {
             let rim = rim_layout(by, tracer, order, x, caustic_disorder, gap)?;
             Some((Some(rim), gap))
         });
-        let without = gaps.iter().map(|&gap| (None, gap));
+        let serves = !by.is_hopeless(order, caustic_disorder);
+        let without = gaps.iter().filter(|_| serves).map(|&gap| (None, gap));
         let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = CutLayout {
