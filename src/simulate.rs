@@ -59,11 +59,12 @@ use crate::size_distribution::SizeDistribution;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::Wavefront;
 use cross_sections::straight_ahead;
+use directions::some_azimuths;
 use energy::{energy, imbalance, left_out};
 use header::header_of;
 use num_complex::Complex64;
 use order_power::{doubts, mark, order_powers, refuse_imbalance};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
 /// with its index while the next one is being computed. No slab is handed on that
@@ -199,7 +200,8 @@ fn computed_slab(
         let (by, area) = (&plan.thresholds, far_field.silhouette().area());
         refuse_imbalance(&powers, by.most_power_lost, area, wavelength)?;
         mark(&mut methods, &powers, by.most_order_off);
-        worth(&far_field, plan, index, size_parameter, treatment, &doubts(&powers), &COMPARED)?
+        let azimuths = some_azimuths(computed.iter().copied());
+        worth(&far_field, plan, index, size_parameter, treatment, &doubts(&powers), &azimuths)?
     } else {
         ErrorEstimate::UNKNOWN
     };
@@ -290,9 +292,6 @@ fn sphere_check<'p>(
         thresholds: plan.thresholds,
     }
 }
-
-/// Azimuths of a table at which planes are compared with sums.
-const COMPARED: [f64; 5] = [0.1 * PI, 0.3 * PI, 0.5 * PI, 0.7 * PI, 0.9 * PI];
 
 /// The estimate of its error that a far field makes of itself, from what the method is worth on the sphere of
 /// equal volume.

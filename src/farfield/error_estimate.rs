@@ -100,7 +100,7 @@ impl ErrorEstimate {
 impl FarField<'_> {
     /// The method's own estimate of its error, from those that it has on the sphere of equal volume;
     /// `interference` says how a table adds up its patches, `doubts` by which shares of their amplitudes orders
-    /// are known to be wrong, `azimuths` (in [0, π]) where planes are compared with sums.
+    /// are known to be wrong, `azimuths` (in [0, π]) where it is measured.
     pub fn error_estimate(
         &self,
         tracer: &Tracer,
@@ -120,7 +120,9 @@ impl FarField<'_> {
             let found = self.patch_intensities(&theta, PATCH_AZIMUTH, true, interference, None);
             return ErrorEstimate::of_bands(&sphere_squares, &band_squares(&found), sphere);
         };
-        let azimuth = CHECKED_AZIMUTH;
+        let off = |a: &&f64| (*a - CHECKED_AZIMUTH).abs();
+        let nearest = azimuths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        let azimuth = nearest.copied().unwrap_or(CHECKED_AZIMUTH);
         let (waves, mut wrong) = fallback.doubted(&theta, azimuth);
         let missed = if tracer.shape().is_sphere() {
             vec![AmplitudeMatrix::default(); theta.len()]
