@@ -59,7 +59,6 @@ use crate::size_distribution::SizeDistribution;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::Wavefront;
 use cross_sections::straight_ahead;
-use directions::some_azimuths;
 use energy::{energy, imbalance, left_out};
 use header::header_of;
 use num_complex::Complex64;
@@ -200,8 +199,7 @@ fn computed_slab(
         let (by, area) = (&plan.thresholds, far_field.silhouette().area());
         refuse_imbalance(&powers, by.most_power_lost, area, wavelength)?;
         mark(&mut methods, &powers, by.most_order_off);
-        let azimuths = some_azimuths(computed.iter().copied());
-        worth(&far_field, plan, index, size_parameter, treatment, &doubts(&powers), &azimuths)?
+        worth(&far_field, plan, index, size_parameter, treatment, &doubts(&powers), &computed)?
     } else {
         ErrorEstimate::UNKNOWN
     };

@@ -100,7 +100,7 @@ impl ErrorEstimate {
 impl FarField<'_> {
     /// The method's own estimate of its error, from those that it has on the sphere of equal volume;
     /// `interference` says how a table adds up its patches, `doubts` by which shares of their amplitudes orders
-    /// are known to be wrong, `azimuths` (in [0, π]) where it is measured.
+    /// are known to be wrong, `azimuths` those asked for, at some of which it is measured.
     pub fn error_estimate(
         &self,
         tracer: &Tracer,
@@ -120,6 +120,7 @@ impl FarField<'_> {
             let found = self.patch_intensities(&theta, PATCH_AZIMUTH, true, interference, None);
             return ErrorEstimate::of_bands(&sphere_squares, &band_squares(&found), sphere);
         };
+        let azimuths = some_azimuths(azimuths);
         let off = |a: &&f64| (*a - CHECKED_AZIMUTH).abs();
         let nearest = azimuths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
         let azimuth = nearest.copied().unwrap_or(CHECKED_AZIMUTH);
@@ -145,7 +146,7 @@ impl FarField<'_> {
         }
         let compared = self.assignment().map(|all| all.cross_checked()).unwrap_or_default();
         if !compared.is_empty() && !azimuths.is_empty() {
-            let apart = disagreement(planes, tracer, &compared, &theta, azimuths);
+            let apart = disagreement(planes, tracer, &compared, &theta, &azimuths);
             wrong.iter_mut().zip(apart).for_each(|(w, apart)| *w += apart);
         }
         let doubt = self.doubt_of_deformation();
@@ -190,6 +191,16 @@ impl FarField<'_> {
         let small = self.size_parameter() < assignment.thresholds().partial_waves_below;
         small && assignment.orders_of(Method::Planes).iter().any(|&order| order > 0)
     }
+}
+
+/// Some of these azimuths, in [0, π].
+fn some_azimuths(azimuths: &[f64]) -> Vec<f64> {
+    const MOST: usize = 5;
+    let mut all: Vec<f64> = azimuths.iter().map(|phi| phi.cos().acos()).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    let step = all.len().div_ceil(MOST).max(1);
+    all.into_iter().skip(step / 2).step_by(step).collect()
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -54,7 +54,7 @@ pub fn scatter_with_sections(
     let sections = CrossSections::new(plan, &far_field, index, absorbed);
     sections.validate()?;
     let treatment = Treatment { interference: true, filter, peak_apart: false };
-    let azimuths = some_azimuths(directions.iter().map(|d| d.1));
+    let azimuths: Vec<f64> = directions.iter().map(|d| d.1).collect();
     let worth = worth(&far_field, plan, index, size_parameter, treatment, &[], &azimuths)?;
     Ok(Seen { amplitudes: finite(amplitudes, directions)?, sections, worth })
 }
@@ -80,16 +80,6 @@ pub fn finite(
             phi.to_degrees()
         ),
     }))
-}
-
-/// Some of these azimuths, in [0, π].
-pub(super) fn some_azimuths(azimuths: impl Iterator<Item = f64>) -> Vec<f64> {
-    const MOST: usize = 5;
-    let mut all: Vec<f64> = azimuths.map(|phi| phi.cos().acos()).collect();
-    all.sort_by(f64::total_cmp);
-    all.dedup();
-    let step = all.len().div_ceil(MOST).max(1);
-    all.into_iter().skip(step / 2).step_by(step).collect()
 }
 
 fn scatter_far_field<'a>(
