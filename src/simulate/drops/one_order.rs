@@ -65,7 +65,7 @@ impl Drop {
         let (azimuths, places) = self.plan.computed_azimuths(&seen);
         let diffraction = order == 0;
         let plan = Plan { orders: vec![order], ..self.plan.clone() };
-        let far_field = self.far_field(&plan, &azimuths, diffraction);
+        let far_field = self.far_field(&plan, diffraction);
         let tabulator = Tabulator {
             theta: &scene.theta,
             size_parameter: x,
@@ -88,7 +88,7 @@ impl Drop {
         values
     }
 
-    fn far_field<'a>(&self, plan: &'a Plan, azimuths: &[f64], diffraction: bool) -> FarField<'a> {
+    fn far_field<'a>(&self, plan: &'a Plan, diffraction: bool) -> FarField<'a> {
         let x = self.size_parameter();
         let tracer = plan.tracer(self.index, x);
         let by = &plan.thresholds;
@@ -98,8 +98,6 @@ impl Drop {
             orders: &plan.orders,
             tolerance: plan.tolerance,
             diffraction,
-            checked: false,
-            azimuths,
         };
         FarField::assigned(&tracer, &settings, assignment)
     }
@@ -112,7 +110,7 @@ impl Drop {
     pub fn sections(&self) -> Result<CrossSections, SimulateError> {
         let budget = energy(&self.plan, self.wavelength, self.index, self.size_parameter())?;
         let plan = Plan { orders: vec![0], forward_diffraction: true, ..self.plan.clone() };
-        let far_field = self.far_field(&plan, &[0.0], true);
+        let far_field = self.far_field(&plan, true);
         Ok(CrossSections::new(&plan, &far_field, self.index, budget.absorbed))
     }
 }
