@@ -272,14 +272,28 @@ fn rays(
 
 /// Steps in `(α, ψ)` with which a sum over this ray's surroundings is the integral: for a Gaussian
 /// `exp -½ yᵀAy` the sum over a lattice of step `h` along an axis errs by `exp -2π² Re(A⁻¹)/h²`.
-pub(super) fn steps([[sa, ra], [sp, rp]]: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> [f64; 2] {
-    let tau = Complex64::new(place.real, place.imaginary);
-    let entry = |s: Vec3<f64>, r: Vec3<f64>, other: Vec3<f64>| tau * s.dot(other) + r.dot(other);
-    let (aa, ap, pp) = (entry(sa, ra, sa), entry(sa, ra, sp), entry(sp, rp, sp));
-    let determinant = aa * pp - ap * ap;
+fn steps(tangents: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> [f64; 2] {
+    let ([aa, _, pp], determinant) = curvature(tangents, place);
     // A = -ix H
     let width = |other: Complex64| (Complex64::i() * other / (x * determinant)).re.max(0.0);
     [pp, aa].map(|other| PI * (2.0 * width(other) / ALIASING).sqrt())
+}
+
+/// Area in `(α, ψ)` that the wave of a ray stands for: the integral of that Gaussian.
+pub(super) fn width(tangents: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> f64 {
+    let (_, determinant) = curvature(tangents, place);
+    TAU / (x * determinant.norm().sqrt())
+}
+
+/// Second derivatives `H` of the phase by `(α, ψ)`, and their determinant.
+fn curvature(
+    [[sa, ra], [sp, rp]]: [[Vec3<f64>; 2]; 2],
+    place: Place,
+) -> ([Complex64; 3], Complex64) {
+    let tau = Complex64::new(place.real, place.imaginary);
+    let entry = |s: Vec3<f64>, r: Vec3<f64>, other: Vec3<f64>| tau * s.dot(other) + r.dot(other);
+    let (aa, ap, pp) = (entry(sa, ra, sa), entry(sa, ra, sp), entry(sp, rp, sp));
+    ([aa, ap, pp], aa * pp - ap * ap)
 }
 
 /// The smallest steps of a ring that most of its rays need.

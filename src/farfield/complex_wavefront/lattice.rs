@@ -79,10 +79,9 @@ impl Lattice {
 }
 
 impl Ring {
-    /// Steps in `(α, ψ)`.
-    pub(super) fn steps(&self) -> [f64; 2] {
-        let by_psi = TAU / self.count as f64;
-        [self.weight / (self.alpha.sin() * self.alpha.cos() * by_psi), by_psi]
+    /// `Δα Δψ`.
+    pub(super) fn step(&self) -> f64 {
+        self.weight / (self.alpha.sin() * self.alpha.cos())
     }
 
     /// Numbers of the points between a spoke of the coarse grid and the next.

@@ -1,7 +1,7 @@
 //! The sum itself: ring by ring, cell by cell, for those columns that a cell's rays come near.
 
 use super::channels::{Channels, FIELDS, PLACE, Place, by_launch, channels};
-use super::coarse::{CoarseGrid, Kind, SPOKES, blend, steps};
+use super::coarse::{CoarseGrid, Kind, SPOKES, blend, width};
 use super::kernel::{Column, Ray};
 use super::lattice::{Lattice, Ring};
 use crate::farfield::wave_field::WaveField;
@@ -28,9 +28,6 @@ impl Fineness {
         }
     }
 }
-
-/// Steps that a ray's wave needs, within one of the lattice: beyond, the sum is no integral.
-const WIDEST: f64 = 2.0;
 
 /// One order as a sum on a complex wavefront, or a share of its amplitude.
 pub struct ComplexWavefront<'a> {
@@ -138,9 +135,8 @@ impl<'a> ComplexWavefront<'a> {
         let place = [rim * ring.alpha.sin() * psi.cos(), rim * ring.alpha.sin() * psi.sin()];
         let exit = self.tracer.trace_order(place[0], place[1], self.order)?;
         let tangents = by_launch(&exit, [ring.alpha, psi], (rim, slope));
-        let needed = steps(tangents, self.size_parameter, self.place);
-        let share: f64 =
-            needed.iter().zip(ring.steps()).map(|(n, s)| (WIDEST * n / s).min(1.0)).product();
+        let share = width(tangents, self.size_parameter, self.place) / ring.step();
+        let share = share.min(1.0);
         let mut found = channels(&exit, self.place, rim * rim)?;
         found[FIELDS..].iter_mut().for_each(|value| *value *= share);
         Some(found)
