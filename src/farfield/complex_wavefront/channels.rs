@@ -3,7 +3,7 @@
 use crate::math::vec3::Vec3;
 use crate::trace::Exit;
 use num_complex::Complex64;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The complex place of the wavefront along its rays, in radii from the plane through the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,4 +70,33 @@ pub(super) fn by_launch(
     let by_psi = [sin * (slope * cp - rim * sp), sin * (slope * sp + rim * cp)];
     [by_alpha, by_psi]
         .map(|[a, b]| [exit.ds[0] * a + exit.ds[1] * b, exit.dx[0] * a + exit.dx[1] * b])
+}
+
+/// Natural logarithm of what the sum over a lattice may add to the integral.
+const ALIASING: f64 = 8.0;
+
+/// Steps in `(α, ψ)` with which a sum over this ray's surroundings is the integral: for a Gaussian
+/// `exp -½ yᵀAy` the sum over a lattice of step `h` along an axis errs by `exp -2π² Re(A⁻¹)/h²`.
+pub(super) fn steps(tangents: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> [f64; 2] {
+    let ([aa, _, pp], determinant) = curvature(tangents, place);
+    // A = -ix H
+    let width = |other: Complex64| (Complex64::i() * other / (x * determinant)).re.max(0.0);
+    [pp, aa].map(|other| PI * (2.0 * width(other) / ALIASING).sqrt())
+}
+
+/// Area in `(α, ψ)` that the wave of a ray stands for: the integral of that Gaussian.
+pub(super) fn width(tangents: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> f64 {
+    let (_, determinant) = curvature(tangents, place);
+    TAU / (x * determinant.norm().sqrt())
+}
+
+/// Second derivatives `H` of the phase by `(α, ψ)`, and their determinant.
+fn curvature(
+    [[sa, ra], [sp, rp]]: [[Vec3<f64>; 2]; 2],
+    place: Place,
+) -> ([Complex64; 3], Complex64) {
+    let tau = Complex64::new(place.real, place.imaginary);
+    let entry = |s: Vec3<f64>, r: Vec3<f64>, other: Vec3<f64>| tau * s.dot(other) + r.dot(other);
+    let (aa, ap, pp) = (entry(sa, ra, sa), entry(sa, ra, sp), entry(sp, rp, sp));
+    ([aa, ap, pp], aa * pp - ap * ap)
 }

@@ -6,14 +6,13 @@
 //! tracing a ray in its middle, has its rays traced one by one.
 
 use super::channels::{
-    CHANNELS, Channels, DIRECTION, FIELDS, PATH, Place, REFERENCE, by_launch, channels,
+    CHANNELS, Channels, DIRECTION, FIELDS, PATH, Place, REFERENCE, by_launch, channels, steps,
 };
 use crate::math::vec3::Vec3;
 use crate::shape::Silhouette;
 use crate::trace::{Exit, Tracer};
-use num_complex::Complex64;
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Rings and spokes.
 pub(super) const RINGS: usize = 160;
@@ -23,8 +22,6 @@ const STENCIL: usize = 6;
 /// Phase (radians) and share of the strongest neighbour's field by which interpolation may err.
 const LARGEST_PHASE_ERROR: f64 = 0.02;
 const LARGEST_FIELD_ERROR: f64 = 0.01;
-/// Natural logarithm of what the sum over a lattice may add to the integral.
-const ALIASING: f64 = 8.0;
 /// Share of the spokes whose steps a ring's must not exceed.
 const SERVED: f64 = 0.98;
 /// Channels that change sign in the mirror image: y of vectors and of the field of light along x; x and
@@ -268,32 +265,6 @@ fn rays(
     };
     let _ = tracer.trace(radius * psi.cos(), radius * psi.sin(), keep);
     found
-}
-
-/// Steps in `(α, ψ)` with which a sum over this ray's surroundings is the integral: for a Gaussian
-/// `exp -½ yᵀAy` the sum over a lattice of step `h` along an axis errs by `exp -2π² Re(A⁻¹)/h²`.
-fn steps(tangents: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> [f64; 2] {
-    let ([aa, _, pp], determinant) = curvature(tangents, place);
-    // A = -ix H
-    let width = |other: Complex64| (Complex64::i() * other / (x * determinant)).re.max(0.0);
-    [pp, aa].map(|other| PI * (2.0 * width(other) / ALIASING).sqrt())
-}
-
-/// Area in `(α, ψ)` that the wave of a ray stands for: the integral of that Gaussian.
-pub(super) fn width(tangents: [[Vec3<f64>; 2]; 2], x: f64, place: Place) -> f64 {
-    let (_, determinant) = curvature(tangents, place);
-    TAU / (x * determinant.norm().sqrt())
-}
-
-/// Second derivatives `H` of the phase by `(α, ψ)`, and their determinant.
-fn curvature(
-    [[sa, ra], [sp, rp]]: [[Vec3<f64>; 2]; 2],
-    place: Place,
-) -> ([Complex64; 3], Complex64) {
-    let tau = Complex64::new(place.real, place.imaginary);
-    let entry = |s: Vec3<f64>, r: Vec3<f64>, other: Vec3<f64>| tau * s.dot(other) + r.dot(other);
-    let (aa, ap, pp) = (entry(sa, ra, sa), entry(sa, ra, sp), entry(sp, rp, sp));
-    ([aa, ap, pp], aa * pp - ap * ap)
 }
 
 /// The smallest steps of a ring that most of its rays need.

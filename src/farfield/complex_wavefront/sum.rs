@@ -1,7 +1,7 @@
 //! The sum itself: ring by ring, cell by cell, for those columns that a cell's rays come near.
 
-use super::channels::{Channels, FIELDS, PLACE, Place, by_launch, channels};
-use super::coarse::{CoarseGrid, Kind, SPOKES, blend, width};
+use super::channels::{Channels, FIELDS, PLACE, Place, by_launch, channels, width};
+use super::coarse::{CoarseGrid, Kind, SPOKES, blend};
 use super::kernel::{Column, Ray};
 use super::lattice::{Lattice, Ring};
 use crate::farfield::wave_field::WaveField;
