@@ -57,7 +57,9 @@ pub(crate) fn slab(
     }
     let [extinction, absorption] = sections;
     let scattering = extinction - absorption;
-    let errors = band_errors(&scene.theta, &((&means[0] - &means[1]) * OF_DIFFERENCE), &means[0]);
+    let size_parameter = TAU * sizes.effective_radius() / wavelength;
+    let errors = band_errors(&scene.theta, &((&means[0] - &means[1]) * OF_DIFFERENCE), &means[0])
+        .and(|theta| plan.thresholds.doubt_of_powers(size_parameter, theta));
     let axes =
         Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: table.clone() };
     let mut values = azimuths.spread(&means[0], &table) / scattering;
