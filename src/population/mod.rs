@@ -1,9 +1,9 @@
 //! Populations: what many particles of a volume scatter together.
 //!
 //! Particles of a volume are strewn about, so that their powers add, element by element of the Mueller matrix,
-//! as cross-sections: [`sum`] adds the slabs of several kinds of particles, or of many sizes, each by its
-//! share of the number. [`radii`] stand for a distribution of sizes, where drops are computed by rays. [`bodies`] are the means of what they are as bodies,
-//! [`bulk`] what a volume of air holds of them.
+//! as cross-sections: [`Sum`] adds the slabs of several kinds of particles, or of many sizes, each by its
+//! share of the number. [`radii()`] stand for a distribution of sizes, where drops are computed by rays.
+//! [`bodies()`] are the means of what they are as bodies, [`bulk()`] what a volume of air holds of them.
 //!
 //! ```
 //! use gonio::population::Sum;

@@ -346,9 +346,8 @@ impl Scene {
             let accepted = "drops that cant are computed by rays: method = \"rays\" or \"auto\"";
             return Err(SceneError::invalid("particle.canting", value, accepted));
         }
-        let accepted = "means over sizes need a sphere and method = \"mie\" (or \"auto\"), or method = \
-                        \"rays\"; those over bands and the sun's disc need a sphere and \"mie\" (or \
-                        \"auto\"); \"debye\" takes the sun's disc alone";
+        let accepted = "means over sizes, bands and the sun's disc need a sphere and method = \
+                        \"mie\" (or \"auto\"); \"debye\" takes the sun's disc alone, \"rays\" sizes alone";
         if sizes && !by_rays {
             let key = "particle.size_distribution";
             let method = format!("(many spheres) with method = \"{}\"", self.method.name());

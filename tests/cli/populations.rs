@@ -58,7 +58,16 @@ fn kinds_add_up_by_number() {
 fn rain_makes_a_table() {
     let folder = tempfile::tempdir().unwrap();
     let file = scene("rain");
-    let light = ["--wavelengths-nm", "550", "--azimuth-deg", "0", "--theta-deg", "0:180:901"];
+    let light = [
+        "--wavelengths-nm",
+        "550",
+        "--azimuth-deg",
+        "0",
+        "--theta-deg",
+        "0:180:901",
+        "--sun-elevation-deg",
+        "90",
+    ];
     let mut words = vec![file.as_str(), "--tolerance", "0.3"];
     words.extend(light);
     let info = described(folder.path(), &words);

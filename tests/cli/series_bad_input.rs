@@ -74,7 +74,7 @@ fn means_that_make_no_sense() {
                 "--method",
                 "debye",
             ],
-            "means over sizes need a sphere and method = \"mie\"",
+            "means over sizes, bands and the sun's disc need a sphere and method = \"mie\"",
         ),
         (&["--radius-um", "5", "--bandwidth-nm", "-3"], "--bandwidth-nm = -3"),
         (&["--radius-um", "5", "--sun-disc", "bright"], "limb-darkened"),

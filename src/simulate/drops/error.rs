@@ -49,6 +49,21 @@ pub(super) fn band_errors(theta: &[f64], difference: &Array3<f64>, mean: &Array3
     }
 }
 
+impl Errors {
+    /// With what the method itself errs by, at each scattering angle (radians).
+    pub fn and(self, method: impl Fn(f64) -> f64) -> Self {
+        let of_method: [f64; ERROR_BANDS] = std::array::from_fn(|band| method(error_theta(band)));
+        let squares: f64 = COUNTED.map(|band| of_method[band].powi(2)).sum();
+        // most of the light is where the method is best
+        let least = of_method.iter().copied().fold(f64::INFINITY, f64::min);
+        Self {
+            weighted: self.weighted.hypot(least),
+            by_band: self.by_band.hypot((squares / COUNTED.len() as f64).sqrt()),
+            by_direction: std::array::from_fn(|b| self.by_direction[b].hypot(of_method[b])),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,5 +79,10 @@ mod tests {
         assert!(errors.weighted < 0.02 && errors.by_band > 0.06 && errors.by_band < 0.08);
         let none = band_errors(&theta, &(&off * 0.0), &mean);
         assert_eq!((none.weighted, none.by_band), (0.0, 0.0));
+        // what rays miss beside an order's edge is stated however many sizes there are
+        let by = crate::farfield::assignment::Thresholds::MEASURED;
+        let stated = none.and(|theta| by.doubt_of_powers(1000.0, theta));
+        assert_eq!((stated.by_direction[20], stated.by_direction[10]), (0.13, 0.015));
+        assert!(stated.by_band > 0.07 && stated.weighted == 0.015);
     }
 }

@@ -20,13 +20,7 @@ pub use steps::Steps;
 use super::error::SimulateError;
 use crate::plan::{Engine, Plan};
 use crate::scene::Scene;
-use crate::size_distribution::SizeDistribution;
-
-/// The sizes of a kind of drops, also of one size.
-fn sizes_of(scene: &Scene) -> SizeDistribution {
-    let one = || SizeDistribution::delta(scene.particle.radius());
-    scene.size_distribution.clone().unwrap_or_else(one)
-}
+use steps::sizes_of;
 
 /// How many radii stand for each kind of particles: for kinds of many drops by rays.
 ///

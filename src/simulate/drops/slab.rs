@@ -3,8 +3,7 @@
 use super::azimuths::Azimuths;
 use super::error::band_errors;
 use super::one_order::Drop;
-use super::sizes_of;
-use super::steps::{OF_DIFFERENCE, Part, Steps, add};
+use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
 use crate::farfield::forward::penumbra_layout::near_axis;
 use crate::phase_table::{Axes, ForwardPeak, MethodPart, Slab};
 use crate::plan::Plan;
@@ -21,7 +20,7 @@ use std::f64::consts::{PI, TAU};
 const AT_ONCE: usize = 8;
 
 /// The mean over the sizes of one kind of drops at a wavelength (metres).
-pub(in crate::simulate) fn slab(
+pub(crate) fn slab(
     scene: &Scene,
     plan: &Plan,
     steps: &Steps,
@@ -58,7 +57,9 @@ pub(in crate::simulate) fn slab(
     }
     let [extinction, absorption] = sections;
     let scattering = extinction - absorption;
-    let errors = band_errors(&scene.theta, &((&means[0] - &means[1]) * OF_DIFFERENCE), &means[0]);
+    let size_parameter = TAU * sizes.effective_radius() / wavelength;
+    let errors = band_errors(&scene.theta, &((&means[0] - &means[1]) * OF_DIFFERENCE), &means[0])
+        .and(|theta| plan.thresholds.doubt_of_powers(size_parameter, theta));
     let axes =
         Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: table.clone() };
     let mut values = azimuths.spread(&means[0], &table) / scattering;

@@ -66,6 +66,12 @@ pub(super) fn stretches(scene: &Scene, sizes: &SizeDistribution) -> Vec<((f64, f
     }
 }
 
+/// The sizes of a kind of drops, also of one size.
+pub(super) fn sizes_of(scene: &Scene) -> SizeDistribution {
+    let one = || SizeDistribution::delta(scene.particle.radius());
+    scene.size_distribution.clone().unwrap_or_else(one)
+}
+
 /// The means of an order over every radius and every second.
 type Means = [Array3<f64>; 2];
 
