@@ -16,44 +16,24 @@
 
 mod acceptance;
 mod cost;
+mod engine;
 mod methods;
 mod orders;
 mod t_matrix;
 
 pub use acceptance::{DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, PlanError, check_rays, phase_shift};
 pub use cost::Cost;
+pub use engine::Engine;
 pub use methods::PlannedRange;
 pub use orders::last_order;
 pub use t_matrix::amplitude_tolerance;
 
 use crate::farfield::assignment::Thresholds;
 use crate::math::digits::to_digits;
-use crate::scene::{Diffraction, Interference, Method, Orders, Orientation, Particle, Scene};
+use crate::scene::{Orders, Orientation, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
-
-/// Who computes the scattering.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Engine {
-    /// Rays along meridians with uniform Airy functions at every fold.
-    Meridians,
-    /// Patches on the collecting sphere (Sadeghi et al. 2012).
-    Patches,
-    /// The exact series.
-    LorenzMie,
-    /// Single orders of the exact series.
-    Debye,
-    /// The T-matrix of a body of revolution.
-    TMatrix,
-}
-
-impl Engine {
-    /// Whether waves are computed exactly, all orders at once or one by one, without rays.
-    pub fn is_exact(self) -> bool {
-        matches!(self, Engine::LorenzMie | Engine::Debye | Engine::TMatrix)
-    }
-}
 
 /// How the scattering depends on azimuth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,7 +121,7 @@ impl Plan {
             shape = self::shape(&largest, scene.sun_elevation)?.0;
         }
         let mut reasons = Vec::new();
-        let engine = engine(scene, &shape, radius, &thresholds, &mut reasons)?;
+        let engine = Engine::of(scene, &shape, radius, &thresholds, &mut reasons)?;
         let random = scene.orientation == Orientation::Random;
         let symmetry = if random && !shape.is_sphere() {
             reasons.push("one azimuth is enough: a mean over all orientations".into());
@@ -273,49 +253,6 @@ pub fn shape(particle: &Particle, sun_elevation: f64) -> Result<(Shape, f64), Sh
             (Shape::raindrop(*radius, *model, sun_elevation)?, *radius)
         }
         Particle::Own { radius, body } => (Shape::own(body.clone(), sun_elevation), *radius),
-    })
-}
-
-fn engine(
-    scene: &Scene,
-    shape: &Shape,
-    radius: f64,
-    by: &Thresholds,
-    reasons: &mut Vec<String>,
-) -> Result<Engine, PlanError> {
-    let sphere = shape.is_sphere();
-    Ok(match scene.method {
-        Method::Auto if sphere => {
-            reasons.push("rays are skipped: the particle is a sphere, Lorenz–Mie is exact".into());
-            Engine::LorenzMie
-        }
-        Method::Mie if !sphere => return Err(PlanError::SeriesNeedsSphere("mie")),
-        Method::Debye if !sphere => return Err(PlanError::SeriesNeedsSphere("debye")),
-        Method::Mie => Engine::LorenzMie,
-        Method::Debye => Engine::Debye,
-        Method::Auto if scene.orientation == Orientation::Random => {
-            t_matrix::check(scene, shape, radius)?;
-            reasons.push("rays are skipped: the T-matrix averages over orientations".into());
-            Engine::TMatrix
-        }
-        Method::TMatrix => {
-            t_matrix::check(scene, shape, radius)?;
-            Engine::TMatrix
-        }
-        Method::Auto if t_matrix::takes(scene, shape, radius, by, reasons)? => Engine::TMatrix,
-        Method::Auto | Method::Rays => {
-            let waves = scene.interference != Interference::Powers;
-            if waves && scene.diffraction == Diffraction::Airy {
-                Engine::Meridians
-            } else {
-                reasons.push(
-                    "patches on the collecting sphere: interference off, or diffraction that is \
-                     not \"airy\""
-                        .into(),
-                );
-                Engine::Patches
-            }
-        }
     })
 }
 

@@ -1,6 +1,6 @@
 //! Whether a T-matrix takes the place of rays: where one converges, at a cost that is allowed.
 
-use super::PlanError;
+use super::acceptance::PlanError;
 use crate::farfield::assignment::Thresholds;
 use crate::farfield::forward::diffraction::ForwardDiffraction;
 use crate::phase_table::ForwardPeak;

@@ -10,6 +10,7 @@
 //! ```
 
 mod choice;
+mod contradictions;
 mod error;
 mod file;
 #[cfg(feature = "cli")]
