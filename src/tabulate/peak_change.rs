@@ -20,7 +20,7 @@ impl PeakChange {
     pub const NONE: Self = Self { weighted: 0.0, by_direction: [0.0; ERROR_BANDS] };
 
     /// From the rows of the cells as they were and all values (θ, φ) as they are.
-    pub(super) fn new(axes: &Axes, before: ArrayView2<f64>, after: ArrayView2<f32>) -> Self {
+    pub fn new(axes: &Axes, before: ArrayView2<f64>, after: ArrayView2<f32>) -> Self {
         let (by_angle, by_azimuth) = axes.solid_angle_factors();
         let square = |values: &mut dyn Iterator<Item = f64>| -> f64 {
             values.zip(&by_azimuth).map(|(value, weight)| weight * value * value).sum()

@@ -107,7 +107,8 @@ impl Tabulator<'_> {
         let mut values = Array3::<f32>::zeros((elements, axes.theta.len(), axes.phi.len()));
         fill(values.view_mut(), &lines, places);
         let weights = (&weights.0[..], &weights.1[..]);
-        let (factor, sum_before_peak, peak_share) = self.close(&lines, places, weights, &values);
+        let (factor, sum_before_peak, peak_share) =
+            self.close(&lines, places, axes, weights, &values);
         let before = self.write_forward(&mut values, &lines, places, factor);
         let peak_change = match factor == 1.0 {
             true => PeakChange::NONE,
@@ -243,18 +244,15 @@ impl Tabulator<'_> {
         &self,
         lines: &[Line],
         places: &[(usize, bool)],
+        axes: &Axes,
         (theta_weights, phi_weights): (&[f64], &[f64]),
         values: &Array3<f32>,
     ) -> (f64, f64, f64) {
+        let covers_sphere = self.closes && axes.cover_sphere();
         let rings = ring_powers(values, phi_weights);
         let rest: f64 = rings.iter().zip(theta_weights).map(|(power, w)| power * w).sum();
         let [without, mixed, own] = self.peak_sums(lines, places, (theta_weights, phi_weights));
         let sum_before_peak = rest + without + mixed + own;
-        let covers_sphere = {
-            let sum = |weights: &[f64]| weights.iter().sum::<f64>();
-            let total = sum(theta_weights) * sum(phi_weights);
-            self.closes && (total / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-6
-        };
         let diffracts = self.diffraction.is_some();
         let share = if diffracts { self.shadow_area / self.scattering } else { 0.0 };
         if self.forward_peak == ForwardPeak::Separate && diffracts && covers_sphere {

@@ -52,14 +52,19 @@ pub(super) fn band_errors(theta: &[f64], difference: &Array3<f64>, mean: &Array3
 impl Errors {
     /// With what the method itself errs by, at each scattering angle (radians).
     pub fn and(self, method: impl Fn(f64) -> f64) -> Self {
-        let of_method: [f64; ERROR_BANDS] = std::array::from_fn(|band| method(error_theta(band)));
-        let squares: f64 = COUNTED.map(|band| of_method[band].powi(2)).sum();
+        let of_method = std::array::from_fn(|band| method(error_theta(band)));
         // most of the light is where the method is best
         let least = of_method.iter().copied().fold(f64::INFINITY, f64::min);
+        self.beside(least, &of_method)
+    }
+
+    /// With independent errors: weighted by intensity, and of each band.
+    pub fn beside(self, weighted: f64, by_direction: &[f64; ERROR_BANDS]) -> Self {
+        let squares: f64 = COUNTED.map(|band| by_direction[band].powi(2)).sum();
         Self {
-            weighted: self.weighted.hypot(least),
+            weighted: self.weighted.hypot(weighted),
             by_band: self.by_band.hypot((squares / COUNTED.len() as f64).sqrt()),
-            by_direction: std::array::from_fn(|b| self.by_direction[b].hypot(of_method[b])),
+            by_direction: std::array::from_fn(|b| self.by_direction[b].hypot(by_direction[b])),
         }
     }
 }

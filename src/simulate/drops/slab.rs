@@ -10,8 +10,9 @@ use crate::plan::Plan;
 use crate::population::{Radius, radii};
 use crate::scene::Scene;
 use crate::simulate::error::SimulateError;
+use crate::tabulate::peak_change::PeakChange;
 use crate::tabulate::slab::asymmetry;
-use ndarray::{Array3, s};
+use ndarray::{Array2, Array3, Axis, s};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -64,8 +65,10 @@ pub(crate) fn slab(
         Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: table.clone() };
     let mut values = azimuths.spread(&means[0], &table) / scattering;
     let (smallest, _) = sizes.bounds();
-    let sum_before_peak = close(scene, &axes, &mut values, TAU * smallest / wavelength);
+    let (sum_before_peak, closed) = close(scene, &axes, &mut values, TAU * smallest / wavelength);
     let values = values.mapv(|value| value as f32);
+    let change = PeakChange::new(&axes, closed.view(), values.index_axis(Axis(0), 0));
+    let errors = errors.beside(change.weighted, &change.by_direction);
     let weights = axes.solid_angle_factors();
     Ok(Slab {
         wavelength,
@@ -105,8 +108,14 @@ fn cross_sections(
     Ok(found.iter().fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]]))
 }
 
-/// Give the forward peak what the rest of the sphere does not hold, so that all adds up to 1; the sum before.
-fn close(scene: &Scene, axes: &Axes, values: &mut Array3<f64>, smallest: f64) -> f64 {
+/// Give the forward peak what the rest of the sphere does not hold, so that all adds up to 1; the sum before, and
+/// the rows of the peak before, shape (θ, φ).
+fn close(
+    scene: &Scene,
+    axes: &Axes,
+    values: &mut Array3<f64>,
+    smallest: f64,
+) -> (f64, Array2<f64>) {
     let (theta, phi) = axes.solid_angle_factors();
     let ring = |values: &Array3<f64>, i: usize| -> f64 {
         let row = values.slice(s![0, i, ..]);
@@ -114,16 +123,17 @@ fn close(scene: &Scene, axes: &Axes, values: &mut Array3<f64>, smallest: f64) ->
     };
     let sum: f64 = (0..theta.len()).map(|i| ring(values, i)).sum();
     if scene.forward_peak != ForwardPeak::CellAverage || !axes.cover_sphere() {
-        return sum;
+        return (sum, Array2::zeros((0, phi.len())));
     }
     let reach = near_axis(smallest).min(0.1 * PI);
     let peak = scene.theta.partition_point(|angle| *angle < reach);
+    let before = values.slice(s![0, ..peak, ..]).to_owned();
     let held: f64 = (0..peak).map(|i| ring(values, i)).sum();
     if held > 0.0 {
         let factor = ((1.0 - sum + held) / held).clamp(0.5, 2.0);
         values.slice_mut(s![.., ..peak, ..]).mapv_inplace(|value| value * factor);
     }
-    sum
+    (sum, before)
 }
 
 /// By which method each order is computed.
