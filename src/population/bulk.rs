@@ -24,9 +24,9 @@ const STEPS: usize = 400;
 ///
 /// ```
 /// use gonio::population::fall_speed;
-/// // Gunn & Kinzer (1949): 2.06, 4.03, 6.49 m/s at 0.5, 1, 2 mm
-/// for (diameter_mm, speed) in [(0.5, 2.06), (1.0, 4.03), (2.0, 6.49)] {
-///     assert!((fall_speed(0.5e-3 * diameter_mm) / speed - 1.0f64).abs() < 0.03);
+/// // Gunn & Kinzer (1949): the polynomial is 3.6 % too fast at 0.5 mm, and within 2 % from 1 mm on
+/// for (diameter_mm, speed, off) in [(0.5, 2.06, 0.04), (1.0, 4.03, 0.02), (2.0, 6.49, 0.02), (3.0, 8.06, 0.02)] {
+///     assert!((fall_speed(0.5e-3 * diameter_mm) / speed - 1.0f64).abs() < off);
 /// }
 /// ```
 pub fn fall_speed(radius: f64) -> f64 {
