@@ -78,8 +78,9 @@ struct Peak<'a> {
     wave: ForwardWave<'a>,
 }
 
-/// Columns computed together, so that what they share is read once.
-const COLUMNS_AT_ONCE: usize = 8;
+/// Columns computed together, at least and at most: what they share is worked out once for each such block (the table
+/// of 1 mm: 37 CPU seconds in blocks of 8, 25 in blocks of 32), and every thread wants some blocks of its own.
+const COLUMNS_AT_ONCE: (usize, usize) = (8, 32);
 
 impl Tabulator<'_> {
     /// Fill a slab. `computed` are azimuths in [0, π]; `places` tells, for every azimuth of the
@@ -94,8 +95,10 @@ impl Tabulator<'_> {
         let cells = self.forward_cells();
         let peak = self.peak().map(|wave| Peak { rows: PeakRows::new(&wave, &cells), wave });
         let angles = [&cells.theta, &self.theta[cells.len()..]].concat();
+        let (fewest, most) = COLUMNS_AT_ONCE;
+        let share = computed.len().div_ceil(3 * rayon::current_num_threads());
         let lines: Vec<Line> = computed
-            .par_chunks(COLUMNS_AT_ONCE)
+            .par_chunks(share.clamp(fewest, most))
             .flat_map_iter(|phis| {
                 let columns = far_field.columns(&angles, phis, !self.interference);
                 let lines = phis.iter().zip(columns);
