@@ -25,7 +25,7 @@ pub use acceptance::{DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, PlanError, check_ra
 pub use cost::Cost;
 pub use engine::Engine;
 pub use methods::PlannedRange;
-pub use orders::last_order;
+pub use orders::{last_order, orders_that_matter};
 pub use t_matrix::amplitude_tolerance;
 
 use crate::farfield::assignment::Thresholds;
@@ -151,7 +151,8 @@ impl Plan {
             reasons.push("absorption is skipped: k = 0 at every wavelength".into());
         }
         let index = indices.first().map_or(1.33, |i| i.re);
-        let (orders, forward_diffraction) = orders(scene, engine, index, &thresholds, &mut reasons);
+        let (orders, forward_diffraction) =
+            orders(scene, &shape, engine, index, &thresholds, &mut reasons);
         let complete = scene.orders == Orders::Auto;
         let rings = rings(scene.rays_across, scene.tolerance);
         Ok(Self {
@@ -296,6 +297,7 @@ fn check_particle(
 /// the cross-section by which it is normalised is in it. Debye terms are just those of the list.
 fn orders(
     scene: &Scene,
+    shape: &Shape,
     engine: Engine,
     index: f64,
     by: &Thresholds,
@@ -306,12 +308,24 @@ fn orders(
         Orders::List(list) => (list.clone(), engine != Engine::Debye),
         Orders::Auto => {
             let last = orders::last_order_by(by, index, scene.tolerance);
+            let rays = engine == Engine::Meridians;
+            let all = match rays {
+                true => orders::orders_that_matter_by(by, index, scene.tolerance, shape),
+                false => (0..=last).collect(),
+            };
+            let beyond: Vec<String> = all[last as usize + 1..].iter().map(u32::to_string).collect();
+            let but = match beyond.is_empty() {
+                true => String::new(),
+                false => {
+                    format!(" but {}, which have bows where little else goes", beyond.join(", "))
+                }
+            };
             reasons.push(format!(
-                "orders beyond p = {last} are skipped: together they hold less than {:.1e} of the \
+                "orders beyond p = {last} are skipped{but}: together they hold less than {:.1e} of the \
                  light",
                 orders::remainder_limit(scene.tolerance, by)
             ));
-            ((0..=last).collect(), true)
+            (all, true)
         }
     }
 }

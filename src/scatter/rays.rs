@@ -2,7 +2,7 @@
 
 use super::{Request, ScatterError, Scattering};
 use crate::farfield::patches::gaussian_filter;
-use crate::plan::{Engine, Plan, Symmetry, check_rays, last_order};
+use crate::plan::{Engine, Plan, Symmetry, check_rays, last_order, orders_that_matter};
 use crate::series::Efficiencies;
 use crate::shape::Shape;
 use crate::simulate::{self, Seen};
@@ -52,8 +52,11 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
         RayDiffraction::None | RayDiffraction::Gaussian { .. } => Engine::Patches,
     };
     let auto = particle.orders.is_none();
-    let orders =
-        particle.orders.clone().unwrap_or_else(|| (0..=last_order(index.re, tolerance)).collect());
+    let orders = match &particle.orders {
+        Some(orders) => orders.clone(),
+        None if engine == Engine::Patches => (0..=last_order(index.re, tolerance)).collect(),
+        None => orders_that_matter(index.re, tolerance, &particle.shape),
+    };
     let diffraction = auto && particle.diffraction != RayDiffraction::None;
     let shape = particle.shape.clone();
     let plan =

@@ -123,6 +123,14 @@ fn errors(
     [0, 1].map(|k: usize| (sums[k] / norms[k]).sqrt())
 }
 
+/// Errors of a sphere's intensities by pairs of rays, by size parameter and band, which spheroids are held to: the
+/// sphere's own rays are better since an integral near the rim serves them at such sizes, which needs a round body.
+const BY_PAIRS: [(f64, [f64; 5]); 3] = [
+    (20.0, [0.081, 0.081, 0.108, 0.629, 0.924]),
+    (50.0, [0.015, 0.015, 0.054, 0.294, 0.841]),
+    (100.0, [0.007, 0.007, 0.017, 0.135, 0.819]),
+];
+
 /// Known defects: size, flatness, sun elevation, plane, lower end of the band, and the bound that
 /// stands just above what was measured. None over all angles or in the forward peak. Waves of deformed
 /// particles that tunnel beyond the rim are continued from rays before it.
@@ -183,11 +191,13 @@ fn spheroids_are_as_good_as_spheres() {
             .collect();
         let ball = rays(Shape::spheroid(1.0 - 1e-7, 0.5).unwrap(), first.x, &directions);
         let sphere = rays(Shape::sphere(), first.x, &directions);
-        for (from, to) in BANDS {
+        let (_, by_pairs) = BY_PAIRS.iter().find(|(x, _)| *x == first.x).unwrap();
+        for ((from, to), by_pairs) in BANDS.into_iter().zip(by_pairs) {
             let inside = |i: usize| (from..=to).contains(&theta[i].to_degrees().round());
             let [e, a] = errors(&found, &exact, inside);
             let [e0, a0] = errors(&ball, &mie, inside);
             let [best, _] = errors(&sphere, &mie, inside);
+            assert!(best < 1.02 * by_pairs, "{} | {from}–{to}: a sphere {best}", first.x);
             println!(
                 "{} | {} | {:.0}° | {} | {from}–{to} | {:.1} %, {:.1} %, {:.2} | {:.1} %, {:.1} %, {:.2} \
                  | {:.1} %, {:.2}",
@@ -204,8 +214,8 @@ fn spheroids_are_as_good_as_spheres() {
                 100.0 * best,
                 e / best
             );
-            if e > bound(first, from) * best {
-                worse.push((first.x, first.flatness, first.plane.clone(), from, to, e / best));
+            if e > bound(first, from) * by_pairs {
+                worse.push((first.x, first.flatness, first.plane.clone(), from, to, e / by_pairs));
             }
         }
     }

@@ -3,7 +3,7 @@
 use crate::farfield::Direction;
 use crate::farfield::reference::huygens_fresnel::HuygensFresnel;
 use crate::fault::{Blame, Fault};
-use crate::plan::{Engine, Plan, last_order};
+use crate::plan::{Engine, Plan, orders_that_matter};
 use crate::series::SeriesError;
 use crate::series::lorenz_mie::Sphere;
 use crate::shape::{RaindropModel, Shape, ShapeError};
@@ -79,7 +79,7 @@ impl SpeedCase {
     /// Intensities by this engine.
     pub fn engine(&self, tolerance: f64) -> Vec<f64> {
         let orders = if self.all_orders {
-            (0..=last_order(self.index.re, tolerance)).collect()
+            orders_that_matter(self.index.re, tolerance, &self.shape)
         } else {
             self.orders.clone()
         };

@@ -2,6 +2,7 @@
 
 use super::assigned::{Assigned, PlanesOutcome};
 use super::method::{Method, Reason};
+use super::near_grazing_taper::{Rim, taper};
 use super::thresholds::Thresholds;
 use crate::trace::Tracer;
 use std::f64::consts::PI;
@@ -12,7 +13,8 @@ pub(super) struct Judge {
     pub by: Thresholds,
     pub size_parameter: f64,
     pub tolerance: f64,
-    pub rotational: bool,
+    pub index: f64,
+    pub rim: Rim,
     /// Whether the body looks the same from below.
     pub mirror: bool,
     /// Whether small sizes are sums over partial waves.
@@ -45,14 +47,30 @@ impl Judge {
     pub(super) fn planes(&self, order: u32, mut reasons: Vec<Reason>) -> Assigned {
         reasons.push(match order {
             0 => Reason::Reflection,
-            _ if self.rotational => Reason::OnePlane,
+            _ if self.rotational() => Reason::OnePlane,
             _ => Reason::Ordered(self.disorder_of(order)),
         });
-        let by_order = self.by.error_of_planes;
-        let next_terms = by_order[(order as usize).min(by_order.len() - 1)];
-        let expected_error = (next_terms * self.size_parameter.powf(-2.0 / 3.0))
+        let expected_error = (self.next_terms(order) * self.size_parameter.powf(-2.0 / 3.0))
             .hypot(self.by.error_of_knots * self.tolerance);
         assigned(order, Method::Planes, reasons, expected_error)
+    }
+
+    fn rotational(&self) -> bool {
+        self.rim != Rim::Uneven
+    }
+
+    /// What scattering planes lack of an order, in units of `x^{-2/3}`. Bows of spheres are as good as rays without
+    /// one where the integral near the rim holds them, and as bad as pairs of rays near the rim where it does not.
+    fn next_terms(&self, order: u32) -> f64 {
+        const AXIS_GAP: f64 = 0.02;
+        let by_order = self.by.error_of_planes;
+        if self.rim != Rim::Sphere || order < 2 {
+            return by_order[(order as usize).min(by_order.len() - 1)];
+        }
+        let marks =
+            taper(&self.by, self.index, order, self.size_parameter, 0.0, AXIS_GAP, Rim::Sphere);
+        let holds = marks.is_some() && self.size_parameter <= self.by.largest_checked_sphere;
+        if holds { by_order[1] } else { by_order[2] }
     }
 
     pub(super) fn after_planes(&self, mut entry: Assigned, outcome: &PlanesOutcome) -> Assigned {
@@ -97,7 +115,7 @@ impl Judge {
 
     /// Share of a sum on a complex wavefront in the wave of an order; the rest is that of scattering planes.
     fn share_of_sum(&self, order: u32) -> f64 {
-        if order == 0 || self.rotational || self.size_parameter < self.by.wavefront_from {
+        if order == 0 || self.rotational() || self.size_parameter < self.by.wavefront_from {
             return 0.0;
         }
         let [from, to] = self.by.wavefront_disorder(order, self.mirror);
@@ -114,7 +132,7 @@ impl Judge {
     /// Whether planes of an order are compared with a sum.
     pub(super) fn is_cross_checked(&self, order: u32) -> bool {
         let [first, last] = self.by.cross_checked_orders;
-        let serves = !self.rotational && self.size_parameter >= self.by.wavefront_from;
+        let serves = !self.rotational() && self.size_parameter >= self.by.wavefront_from;
         serves
             && (first..=last).contains(&order)
             && self.disorder_of(order) > self.by.cross_checked_disorder

@@ -27,6 +27,7 @@
 mod assigned;
 mod judge;
 mod method;
+pub(crate) mod near_grazing_taper;
 mod thresholds;
 
 pub use assigned::{Assigned, Outcome, PlanesOutcome};
@@ -37,6 +38,7 @@ pub use thresholds::Thresholds;
 use crate::phase_table::{FormulaPart, MethodPart};
 use crate::trace::Tracer;
 use judge::Judge;
+use near_grazing_taper::Rim;
 
 /// Who computes what, in the order in which orders are asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,7 +72,8 @@ impl Assignment {
             by: *by,
             size_parameter,
             tolerance,
-            rotational: tracer.shape().rotational_symmetry(),
+            index: tracer.index().re,
+            rim: Rim::of(tracer),
             mirror: tracer.shape().mirror_symmetry(),
             deformed,
             disorder: caustic_disorder(tracer, 1),

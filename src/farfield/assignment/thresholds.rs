@@ -36,7 +36,7 @@ pub struct Thresholds {
     /// less than the tolerance itself; measured against exact sums of Debye terms (1.1 % error up to p = 7
     /// at 120–150° for a tolerance of 1 %).
     pub left_out_per_tolerance: f64,
-    /// Share of the light in a band of 10° that a single order beyond those of a round body may hold and be left out,
+    /// Share of the light in a band of 10° that a single order beyond those of a sphere may hold and be left out,
     /// per tolerance.
     pub left_out_of_a_band_per_tolerance: f64,
 
@@ -78,7 +78,7 @@ pub struct Thresholds {
     /// The first order whose plain segments have fewer knots: weaker than those before.
     pub first_sparse_order: u32,
 
-    /// Orders that a near-grazing integral serves from on, where the body is round, and all but one where it is nearly
+    /// Orders that a near-grazing integral serves from on, where the body is round (a sphere, for order 1), and all but one where it is nearly
     /// so. On other particles from [`Thresholds::first_high_order`] on: there the secondary bow's wave changes too fast
     /// with azimuth to be interpolated, penumbras of low orders from continued polynomials are not reciprocal, and two
     /// rays serve nearly as well.
@@ -124,7 +124,8 @@ pub struct Thresholds {
     /// Share of its amplitude by which a wave may be off, root mean square from 10° to 170°, measured
     /// against Debye terms of spheres (n = 1.333 and 1.5, x = 300 to 10 000). Of scattering planes by
     /// order (the last: and higher), in units of `x^{-2/3}`, the size of the next term of uniform formulas;
-    /// order 2 has its bow where few wave zones lie between it and the rim.
+    /// order 2 has its bow where few wave zones lie between it and the rim. On spheres such bows are as
+    /// good as order 1 wherever the integral near the rim holds them (n = 1.333: from x = 100 on; 1.5: 200; 1.7: 700).
     pub error_of_planes: [f64; 4],
     /// What the density of their knots adds, per tolerance.
     pub error_of_knots: f64,

@@ -4,6 +4,7 @@ use super::azimuthal_smoothness::azimuthal_smoothness;
 use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, another, trace};
+use crate::farfield::assignment::near_grazing_taper::{Rim, taper};
 use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 use crate::farfield::branch::samples::Side;
@@ -11,7 +12,6 @@ use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_grazing_layout::NearGrazingLayout;
-use crate::farfield::impact_integral::near_grazing_taper::taper;
 use crate::farfield::settings::FarFieldSettings;
 use crate::math::half_turn::shares;
 use crate::trace::Tracer;
@@ -325,8 +325,9 @@ fn rim_layout(
     caustic_disorder: f64,
     axis_gap: f64,
 ) -> Option<NearGrazingLayout> {
-    let rotational = tracer.shape().rotational_symmetry();
-    let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rotational)?;
+    let rim = Rim::of(tracer);
+    let rotational = rim != Rim::Uneven;
+    let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rim)?;
     // The wave of order 1 beyond the rim is that of its last ray alone, without a bow before it: what little is odd
     // in the grazing angle would decide there.
     let round = rotational || order > 1 && caustic_disorder < by.nearly_round;

@@ -7,6 +7,5 @@ pub mod met_fields;
 pub mod near_critical;
 pub mod near_grazing;
 pub mod near_grazing_layout;
-pub mod near_grazing_taper;
 mod prefactor;
 pub mod rays;

@@ -1,8 +1,8 @@
 //! Where the integral over rays near the rim takes over, and the angles at which its wave is known; the
 //! same for all planes of an order.
 
-use super::near_grazing_taper::{airy_angle, deviation_slope};
 use super::rays::{RAYS, Rays};
+use crate::farfield::assignment::near_grazing_taper::{airy_angle, deviation_slope};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;
@@ -28,6 +28,10 @@ pub struct NearGrazingLayout {
     rotational: bool,
 }
 
+/// Most knots of a plane: more are only asked for between angles that are not to be trusted. One plane that stands for
+/// all may have more, up to x of 20 000 of order 2.
+const MOST: f64 = 1500.0;
+const MOST_OF_ONE_PLANE: f64 = 10_000.0;
 /// Knots per period of the wave against its reference.
 const KNOTS_PER_PERIOD: f64 = 4.0;
 
@@ -123,7 +127,8 @@ impl NearGrazingLayout {
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
         let spare = 0.1 * caustic_disorder + zone + x.powf(-2.0 / 3.0);
         let stretch = [begin, start, bow_at, bow_at + dark];
-        let all = knots(stretch, sense, [self.start, self.bow], spare, x)?;
+        let most = if self.rotational { MOST_OF_ONE_PLANE } else { MOST };
+        let all = knots(stretch, sense, [self.start, self.bow], spare, [x, most])?;
         self.knots = if self.rotational {
             between_axes(&all, marks[0].anchor, axis_gap)
         } else {
@@ -217,12 +222,11 @@ fn knots(
     sense: f64,
     [start, bow]: [f64; 2],
     spare: f64,
-    x: f64,
+    [x, most]: [f64; 2],
 ) -> Option<Vec<[f64; 2]>> {
-    const MOST: usize = 1500;
     let mut at = begin;
     let mut knots = Vec::new();
-    while knots.len() < MOST {
+    while (knots.len() as f64) < most {
         // towards the bow the inner ray's angle runs like a square
         let share = ((at - start_at) / (bow_at - start_at)).clamp(0.0, 1.0);
         let inner = bow - (bow - start) * (1.0 - share).sqrt();
@@ -246,7 +250,7 @@ mod tests {
         let (x, spare) = (5000.0, 0.01);
         let ends = [-0.1, 0.0, 0.3, 0.4];
         for sense in [1.0, -1.0] {
-            let found = knots(ends, sense, [0.8, 0.95], spare, x).unwrap();
+            let found = knots(ends, sense, [0.8, 0.95], spare, [x, MOST]).unwrap();
             assert_eq!(sense * found[0][0], -0.1);
             assert!(sense * found[found.len() - 1][0] >= 0.4);
             for pair in found.windows(2) {
@@ -257,7 +261,7 @@ mod tests {
                 assert!((0.025..=0.1 + 1e-12).contains(&half), "{half}");
             }
         }
-        assert!(knots([-0.1, 0.0, 0.3, 40.0], 1.0, [0.8, 0.95], spare, x).is_none());
+        assert!(knots([-0.1, 0.0, 0.3, 40.0], 1.0, [0.8, 0.95], spare, [x, MOST]).is_none());
     }
 
     /// Runs between axes end exactly the gap from them, and none crosses.

@@ -2,19 +2,65 @@
 //! some widths of its Airy function, over some Fresnel zones, and clear of the axis. Order 1 has no bow: its
 //! last ray stands in for that of a bow, by the width of its penumbra.
 
-use crate::farfield::assignment::Thresholds;
+use super::thresholds::Thresholds;
+use crate::trace::Tracer;
 use std::f64::consts::PI;
 
-/// Widths of the Airy function between the bow's ray and the start of the taper; of order 1 so many before its last
-/// ray.
-const AIRY_WIDTHS: f64 = 5.0;
-const AIRY_WIDTHS_FIRST: f64 = 3.0;
-/// Least start of the taper, per its end, and the fewest Fresnel zones in it. The rays of order 1 spread slowly: their
-/// zones are wide, and below x = 130 single rays are nearer the truth at the middle than a short taper.
-const DEEPEST_START: f64 = 0.5;
-const DEEPEST_START_FIRST: f64 = 0.1;
-const FEWEST_ZONES: f64 = 5.0;
-const FEWEST_ZONES_FIRST: f64 = 10.0;
+/// What rays near the rim are like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rim {
+    /// Those of a sphere: all is known of them.
+    Sphere,
+    /// Alike at all azimuths.
+    Axial,
+    /// Different from azimuth to azimuth.
+    Uneven,
+}
+
+impl Rim {
+    /// That of a particle.
+    pub(crate) fn of(tracer: &Tracer) -> Self {
+        let shape = tracer.shape();
+        match (shape.is_sphere(), shape.rotational_symmetry()) {
+            (true, _) => Self::Sphere,
+            (false, true) => Self::Axial,
+            (false, false) => Self::Uneven,
+        }
+    }
+}
+
+/// Where a taper may lie.
+struct Room {
+    /// Widths of the Airy function between the bow's ray and the end of the taper; of order 1 so many before its last
+    /// ray.
+    airy_widths: f64,
+    /// Least end of the taper.
+    deepest: f64,
+    /// Least start, per end.
+    deepest_start: f64,
+    /// Fewest Fresnel zones within.
+    fewest_zones: f64,
+}
+
+impl Room {
+    /// Order 2 of a sphere of n = 1.333 is 21 % off without the integral at x = 300 and 1.3 % with it, at x = 100 33 and
+    /// 7 %: there it starts near the axis. The rays of order 1 spread slowly: their zones are wide, and below x = 130
+    /// single rays are nearer the truth at the middle than a short taper.
+    fn of(order: u32, rim: Rim, high: bool) -> Self {
+        let wide = Self { airy_widths: 5.0, deepest: 0.3, deepest_start: 0.5, fewest_zones: 5.0 };
+        match (order, rim) {
+            (1, _) => Self { airy_widths: 3.0, deepest_start: 0.1, fewest_zones: 10.0, ..wide },
+            (_, Rim::Sphere) => Self {
+                airy_widths: if high { 5.0 } else { 3.0 },
+                deepest: 0.1,
+                deepest_start: 0.05,
+                fewest_zones: 3.5,
+            },
+            _ => wide,
+        }
+    }
+}
+
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
 /// served is ten times as strong as the others.
 const FRESNEL_ZONES: f64 = 20.0;
@@ -32,7 +78,7 @@ fn central_impact(index: f64, order: u32, size_parameter: f64) -> Option<f64> {
 }
 
 /// Slope and third derivative of a sphere's deviation by impact.
-pub(super) fn deviation_slope(index: f64, order: u32, b: f64) -> (f64, f64) {
+pub(crate) fn deviation_slope(index: f64, order: u32, b: f64) -> (f64, f64) {
     let p = f64::from(order);
     let (c, ct) = (1.0 - b * b, index * index - b * b);
     (2.0 / c.sqrt() - 2.0 * p / ct.sqrt(), 2.0 * b / c.powf(1.5) - 2.0 * p * b / ct.powf(1.5))
@@ -54,37 +100,35 @@ pub fn taper(
     size_parameter: f64,
     caustic_disorder: f64,
     axis_gap: f64,
-    rotational: bool,
+    rim: Rim,
 ) -> Option<[f64; 3]> {
-    const DEEPEST: f64 = 0.3;
     const FEWEST_WIDTHS: f64 = 2.0;
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
-    let serves = by.near_grazing_serves(index, order, rotational, caustic_disorder);
+    let axial = rim != Rim::Uneven;
+    // seen along its axis a flattened body looks round, but its rays near the rim are not a sphere's
+    let serves = by.near_grazing_serves(index, order, axial, caustic_disorder)
+        && (order > 1 || rim != Rim::Axial);
     let b = central_impact(index, order, size_parameter).filter(|b| serves && *b > 0.0)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
-    let (widths, deepest_start, fewest_zones) = if order == 1 {
-        (AIRY_WIDTHS_FIRST, DEEPEST_START_FIRST, FEWEST_ZONES_FIRST)
-    } else {
-        (AIRY_WIDTHS, DEEPEST_START, FEWEST_ZONES)
-    };
-    let mut full = b - widths * airy - caustic_disorder;
-    if rotational {
+    let room = Room::of(order, rim, by.is_high(order));
+    let mut full = b - room.airy_widths * airy - caustic_disorder;
+    if axial {
         full = below_axis(index, order, full, AXIS_GAPS * axis_gap);
     }
-    if full < DEEPEST {
+    if full < room.deepest {
         return None;
     }
     let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
     let zones = if by.is_high(order) { FRESNEL_ZONES_HIGH } else { FRESNEL_ZONES };
-    let mut start = (full - zones * zone(full)).max(deepest_start * full);
-    if !rotational {
+    let mut start = (full - zones * zone(full)).max(room.deepest_start * full);
+    if !axial {
         start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
-        full = full.max(start + fewest_zones * zone(full));
+        full = full.max(start + room.fewest_zones * zone(full));
     }
-    let room = full - start > 0.99 * fewest_zones * zone(full) || !rotational;
-    let serves = room && full < b - FEWEST_WIDTHS * airy;
+    let wide = full - start > 0.99 * room.fewest_zones * zone(full) || !axial;
+    let serves = wide && full < b - FEWEST_WIDTHS * airy;
     serves.then_some([start, full, b])
 }
 
@@ -110,7 +154,7 @@ fn clear_of_axis(index: f64, order: u32, bow: f64, gap: f64) -> Option<f64> {
 }
 
 /// Angle over which the argument of a sphere's Airy function grows by 1.
-pub(super) fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
+pub(crate) fn airy_angle(index: f64, order: u32, x: f64) -> f64 {
     let (p, n) = (f64::from(order).powi(2), index * index);
     let h = (p - 1.0).powi(2) / p * ((p - n) / (n - 1.0).powi(3)).sqrt();
     h.cbrt() * x.powf(-2.0 / 3.0)
