@@ -24,7 +24,7 @@ const FLOORS: [(u32, &[&str]); 13] = [
     (3, &["hdf5", "population"]),
     (2, &["scene", "phase_table", "trace", "sun_disc"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution"]),
-    (0, &["math", "pending_file", "fault"]),
+    (0, &["math", "pending_file", "fault", "cancel"]),
 ];
 
 /// Edges that the table forbids and the design allows, each with its reason.

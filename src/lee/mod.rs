@@ -38,7 +38,7 @@ mod wavelengths;
 
 pub use crate::optics::Polarisation;
 pub use columns::{Bodies, columns};
-pub use diagram::{Diagram, column_exposures, srgb};
+pub use diagram::{Diagram, PEAK, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::Beats;
 

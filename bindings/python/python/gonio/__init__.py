@@ -1,0 +1,47 @@
+"""The virtual gonioreflectometer: how one particle scatters light.
+
+Everywhere: time factor exp(-iωt), refractive index n + ik with k ≥ 0 where light is absorbed, scattering angle 0
+straight ahead; wavelengths in vacuum, units in the names of arguments (``radius_um``, ``wavelength_nm``,
+``theta_deg``). Angles are keyword-only.
+
+Arrays for loops and fits come from :mod:`gonio.mie` and :mod:`gonio.debye`; xarray Datasets with units and
+provenance from :func:`gonio.table`, :func:`gonio.scatter`, :func:`gonio.lee` and :func:`gonio.batch`.
+
+Long calls run without the interpreter's lock on as many threads as their argument ``threads`` says, else the
+environment variable ``GONIO_THREADS``, else ``RAYON_NUM_THREADS``, else all cores. Ctrl-C stops them.
+
+Examples
+--------
+>>> import gonio
+>>> s1, s2 = gonio.mie.amplitudes(10.0, 1.33, theta_deg=30.0)
+>>> gonio.mie.efficiencies(10.0, 1.33 + 0.01j).q_ext > 2
+True
+"""
+
+from __future__ import annotations
+
+from gonio import debye, mie
+from gonio._batch import batch
+from gonio._datasets import plan, scatter, table
+from gonio._gonio import __version__
+from gonio._lee import lee
+from gonio._material import Material, material, media
+from gonio.particles import Particle, Raindrop, Sphere, Spheroid
+
+__all__ = [
+    "Material",
+    "Particle",
+    "Raindrop",
+    "Sphere",
+    "Spheroid",
+    "__version__",
+    "batch",
+    "debye",
+    "lee",
+    "material",
+    "media",
+    "mie",
+    "plan",
+    "scatter",
+    "table",
+]
