@@ -42,6 +42,7 @@ pub use diagram::{Diagram, PEAK, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::Beats;
 
+use crate::cancel;
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
@@ -222,6 +223,7 @@ where
             let prepared = prepare(&angles);
             let mut sums = vec![[0.0; 6]; angles.theta.len()];
             for first in band.places.clone().step_by(TOGETHER) {
+                cancel::checkpoint();
                 let places = first..(first + TOGETHER).min(band.places.end);
                 let drop = |i: usize| {
                     let wavelength = sampling.wavelengths[i];

@@ -32,7 +32,12 @@ impl Sphere {
     pub fn legendre(&self, count: usize) -> Vec<f64> {
         let known = count.min(self.legendre_count());
         // exact for polynomials of degree 2N + l, l < known
-        let nodes = gauss_legendre::nodes(self.a().len() + known / 2 + 1);
+        let nodes = self.a().len() + known / 2 + 1;
+        let node = |i| {
+            cancel::checkpoint();
+            gauss_legendre::node(nodes, i)
+        };
+        let nodes: Vec<(f64, f64)> = (0..nodes).into_par_iter().map(node).collect();
         let theta: Vec<f64> = nodes.iter().map(|(cosine, _)| cosine.acos()).collect();
         let amplitudes = self.amplitudes_parallel(&theta);
         let scale = 1.0 / (self.size_parameter().powi(2) * self.efficiencies().q_sca);

@@ -185,8 +185,8 @@ pub fn mie_amplitudes<'py>(
     let count = crate::job::threads(threads)?;
     let spheres = Spheres::new(x, m)?;
     let (theta, angle_shape) = angles(theta_deg)?;
-    let set = AngleSet::new(&theta);
     let mut out = room(&spheres, theta.len(), (Complex64::ZERO, Complex64::ZERO))?;
+    let set = AngleSet::new(&theta);
     spheres.fill(py, count, spheres.seconds(set.recurrences()), &mut out, |(x, m), out, few| {
         let sphere = Sphere::new(x, m)?;
         let found =

@@ -20,13 +20,17 @@ True
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from gonio import debye, mie
-from gonio._batch import batch
-from gonio._datasets import plan, scatter, table
 from gonio._gonio import __version__
-from gonio._lee import lee
-from gonio._material import Material, material, media
-from gonio.particles import Particle, Raindrop, Sphere, Spheroid
+
+if TYPE_CHECKING:
+    from gonio._batch import batch
+    from gonio._datasets import plan, scatter, table
+    from gonio._lee import lee
+    from gonio._material import Material, material, media
+    from gonio.particles import Particle, Raindrop, Sphere, Spheroid
 
 __all__ = [
     "Material",
@@ -45,3 +49,26 @@ __all__ = [
     "scatter",
     "table",
 ]
+
+#: Where the rest is, imported when it is first asked for: arrays come without waiting for it.
+_HOMES = {
+    "batch": "_batch",
+    "lee": "_lee",
+    **dict.fromkeys(("plan", "scatter", "table"), "_datasets"),
+    **dict.fromkeys(("Material", "material", "media"), "_material"),
+    **dict.fromkeys(("Particle", "Raindrop", "Sphere", "Spheroid"), "particles"),
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'gonio' has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f"gonio.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

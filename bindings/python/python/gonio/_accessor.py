@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["Look"]
 
 
-@xr.register_dataset_accessor("gonio")
+@xr.register_dataset_accessor("gonio")  # type: ignore[no-untyped-call]
 class Look:
     """Views of a table of :func:`gonio.table`.
 
@@ -55,7 +55,8 @@ class Look:
         xarray.DataArray
             Over wavelength and theta, sr⁻¹.
         """
-        return self.intensity.sel(phi=azimuth_deg, method="nearest")
+        cut: xr.DataArray = self.intensity.sel(phi=azimuth_deg, method="nearest")
+        return cut
 
     def polarisation(self) -> xr.DataArray:
         """The degree of linear polarisation −S12/S11 of unpolarised light; needs a table of all elements.
@@ -69,9 +70,10 @@ class Look:
             raise ValueError('the polarisation needs a table with table={"quantity": "mueller"}')
         mueller = self._dataset["mueller"]
         first, second = (mueller.sel(mueller_element=name, drop=True) for name in ("11", "12"))
-        degree = -second / first
+        degree: xr.DataArray = -second / first
         degree.attrs = {"units": "1", "long_name": "degree of linear polarisation, positive across the scattering plane"}
-        return degree.rename("polarisation")
+        renamed: xr.DataArray = degree.rename("polarisation")
+        return renamed
 
     def xyz(self, illuminant: str = "D65", observer: str = "1931") -> xr.DataArray:
         """CIE X, Y, Z of the phase function under a light, sr⁻¹.
@@ -99,7 +101,8 @@ class Look:
         power = self.intensity.astype(float) * (cross / cross.mean())
         whole = xr.dot(power, by, dim="wavelength_nm")
         whole.attrs = {"units": "sr-1", "long_name": "CIE X, Y, Z"}
-        return whole.assign_coords(stimulus=["X", "Y", "Z"]).rename("xyz")
+        renamed: xr.DataArray = whole.assign_coords(stimulus=["X", "Y", "Z"]).rename("xyz")
+        return renamed
 
     def srgb(
         self, illuminant: str = "D65", observer: str = "1931", *, exposure: float | None = None, peak: float = 0.8

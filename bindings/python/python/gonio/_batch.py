@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
-import itertools
 import json
 import os
-import zipfile
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gonio import _gonio
@@ -17,6 +13,8 @@ from gonio._progress import bar
 from gonio._scene import scene_of
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import xarray as xr
 
     from gonio._scene import SceneLike
@@ -88,9 +86,12 @@ def batch(
     >>> ds.phase_function.dims
     ('radius_um', 'wavelength_nm', 'theta', 'phi')
     """
+    import itertools
+    from pathlib import Path
+
     from gonio.particles import Particle
 
-    xr = xarray()
+    module = xarray()
     if isinstance(scene, Particle):
         scene = {"particle": scene.keys()}
     if not isinstance(scene, Mapping):
@@ -109,10 +110,10 @@ def batch(
     tables = {}
     with bar(len(places), "tables", progress) as advance:
         for number, (place, point) in enumerate(points.items()):
-            tables[place] = dataset_of(xr, whole_of(point, kept, threads))
+            tables[place] = dataset_of(module, whole_of(point, kept, threads))
             if advance is not None:
                 advance(number + 1)
-    return joined(xr, tables, axes)
+    return joined(module, tables, axes)
 
 
 def axis_of(key: str | tuple[str, ...], values: Sequence[Any]) -> Axis:
@@ -149,6 +150,8 @@ def keys_at(base: Mapping[str, Any], axes: Sequence[Axis], place: tuple[int, ...
 def whole_of(scene: _gonio.Scene, folder: Path | None, threads: int | None) -> dict[str, Any]:
     """The described table of a scene, from the folder where it is there."""
 
+    import hashlib
+
     def compute() -> dict[str, Any]:
         return scene.table(command_line="gonio.batch (Python)", threads=threads)
 
@@ -167,7 +170,7 @@ def save(path: Path, whole: Mapping[str, Any]) -> None:
     """Keep a described table; the file appears only when it is complete."""
     import numpy as np
 
-    arrays = {f"v{i}": np.asarray(values) for i, (_, _, values, _) in enumerate(whole["variables"])}
+    arrays: dict[str, Any] = {f"v{i}": np.asarray(values) for i, (_, _, values, _) in enumerate(whole["variables"])}
     head = [(name, dimensions, attributes) for name, dimensions, _, attributes in whole["variables"]]
     text = json.dumps({"attributes": whole["attributes"], "variables": head})
     pending = path.with_name(f".{path.name}.{os.getpid()}.tmp")
@@ -181,6 +184,8 @@ def save(path: Path, whole: Mapping[str, Any]) -> None:
 
 def load(path: Path) -> dict[str, Any] | None:
     """A kept table; nothing where there is none or it is damaged."""
+    import zipfile
+
     import numpy as np
 
     try:
@@ -192,7 +197,7 @@ def load(path: Path) -> dict[str, Any] | None:
     return {"attributes": head["attributes"], "variables": rows}
 
 
-def joined(xr: Any, tables: dict[tuple[int, ...], Any], axes: Sequence[Axis]) -> xr.Dataset:
+def joined(xarray: Any, tables: dict[tuple[int, ...], Any], axes: Sequence[Axis]) -> xr.Dataset:
     """One Dataset of many, a leading dimension per axis."""
     import numpy as np
 
@@ -223,7 +228,7 @@ def joined(xr: Any, tables: dict[tuple[int, ...], Any], axes: Sequence[Axis]) ->
                 table = spread(table, azimuths)
             return table
         parts = [build((*place, i)) for i in range(len(axes[depth][1]))]
-        whole = xr.concat(
+        whole = xarray.concat(
             parts,
             dim=swept[depth][0][0],
             data_vars=[name for name in parts[0].data_vars if name != "solid_angle"],
@@ -235,7 +240,7 @@ def joined(xr: Any, tables: dict[tuple[int, ...], Any], axes: Sequence[Axis]) ->
         along = swept[depth][0][0]
         return whole.assign_coords({name: (along, array, given) for name, array, given in swept[depth]})
 
-    whole = build(())
+    whole: xr.Dataset = build(())
     leading = [coordinates[0][0] for coordinates in swept]
     if any(attributes):
         shape = [len(rows) for _, rows in axes]

@@ -80,32 +80,34 @@ def table(
     >>> round(float((ds.phase_function * ds.solid_angle).sum()), 4)
     1.0
     """
-    xr = xarray()
+    module = xarray()
     made = scene_of(scene, keys)
     with bar(made.wavelengths, "wavelengths", progress) as advance:
         whole = made.table(command_line="gonio.table (Python)", threads=threads, progress=advance)
-    return dataset_of(xr, whole)
+    return dataset_of(module, whole)
 
 
-def dataset_of(xr: Any, whole: Mapping[str, Any]) -> xr.Dataset:
+def dataset_of(xarray: Any, whole: Mapping[str, Any]) -> xr.Dataset:
     """The Dataset of described variables."""
     import numpy as np
 
     def attributes(given: Mapping[str, str | int]) -> dict[str, Any]:
         return {name: np.int32(value) if isinstance(value, int) else value for name, value in given.items()}
 
-    data, coordinates = {}, {}
+    data: dict[str, Any] = {}
+    coordinates: dict[str, Any] = {}
     for name, dimensions, values, given in whole["variables"]:
         given = attributes(given)
         along = given.pop("coordinates", None)
         if isinstance(values, list):
             values = np.array(values)
-        variable = xr.Variable(dimensions, values, given)
+        variable = xarray.Variable(dimensions, values, given)
         if along is not None:
             variable.encoding["coordinates"] = along
         is_coordinate = name in COORDINATES or tuple(dimensions) == (name,)
         (coordinates if is_coordinate else data)[name] = variable
-    return xr.Dataset(data, coordinates, attributes(whole["attributes"]))
+    made: xr.Dataset = xarray.Dataset(data, coordinates, attributes(whole["attributes"]))
+    return made
 
 
 def plan(scene: SceneLike, *, threads: int | None = None, **keys: Any) -> dict[str, Any]:
@@ -198,7 +200,7 @@ def scatter(
     """
     import numpy as np
 
-    xr = xarray()
+    module = xarray()
 
     def numbers(name: str, value: ArrayLike, low: float, high: float, accepted: str) -> Any:
         array = np.atleast_1d(np.asarray(value, dtype=float))
@@ -222,7 +224,7 @@ def scatter(
     directions, spectrum = ("wavelength_nm", "phi", "theta"), ("wavelength_nm", "phi")
     units = {"units": "1"}
     elements = {"s1": "⊥ from ⊥", "s2": "∥ from ∥", "s3": "∥ from ⊥", "s4": "⊥ from ∥"}
-    data = {
+    data: dict[str, Any] = {
         name: (directions, found[name], units | {"long_name": f"amplitude, {words} the scattering plane"})
         for name, words in elements.items()
     }
@@ -244,4 +246,5 @@ def scatter(
     }
     attributes = {"engine": found["engine"], "scene": made.toml}
     attributes["diffraction_included"] = np.int32(found["diffraction_included"])
-    return xr.Dataset(data, coordinates, attributes)
+    seen: xr.Dataset = module.Dataset(data, coordinates, attributes)
+    return seen

@@ -87,20 +87,19 @@ def lee(
     """
     import numpy as np
 
-    xr = xarray()
+    module = xarray()
     radii = np.atleast_1d(np.asarray(radius_mm, dtype=float))
     theta = np.atleast_1d(np.asarray(theta_deg, dtype=float))
     if radii.ndim != 1 or theta.ndim != 1:
         raise ValueError("radius_mm and theta_deg: a number or a list is accepted for each")
     if isinstance(medium, (int, float, complex)):
         medium = {"index": [complex(medium).real, complex(medium).imag]}
-    named = isinstance(medium, str)
     with bar(len(radii), "radii", progress) as advance:
         parallel, perpendicular, srgb = _gonio.lee(
             radius_mm=radii.tolist(),
             theta_deg=theta.tolist(),
             shape=shape,
-            medium_name=medium if named else None,
+            medium_name=medium if isinstance(medium, str) else None,
             medium_json=None if isinstance(medium, str) else json_of(medium),
             sun_elevation_deg=sun_elevation_deg,
             azimuth_deg=azimuth_deg,
@@ -135,4 +134,5 @@ def lee(
         "illuminant": illuminant,
         "observer": observer,
     }
-    return xr.Dataset(data, coordinates, attributes)
+    diagram: xr.Dataset = module.Dataset(data, coordinates, attributes)
+    return diagram

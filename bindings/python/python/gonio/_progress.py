@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from contextlib import contextmanager
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ def bar(total: int, unit: str, wanted: bool | None) -> Iterator[Callable[[int], 
     tqdm: Any = None
     if not quiet:
         try:
-            from tqdm.auto import tqdm
+            tqdm = import_module("tqdm.auto").tqdm
         except ImportError:
             if wanted:
                 raise ImportError("progress = True needs tqdm: pip install tqdm") from None

@@ -159,4 +159,5 @@ def legendre(
     >>> chi[:3].round(6).tolist()
     [1.0, 0.0, 0.1]
     """
-    return _gonio.mie_legendre(x, m, count, threads)
+    coefficients: NDArray[np.float64] = _gonio.mie_legendre(x, m, count, threads)
+    return coefficients
