@@ -26,9 +26,16 @@ pub fn threads(threads: Option<usize>) -> PyResult<usize> {
                 Ok(count) if (1..=MOST_THREADS).contains(&count) => Ok(count),
                 _ => Err(invalid("GONIO_THREADS", text, accepted)),
             },
-            Err(_) => Ok(rayon::current_num_threads()),
+            Err(_) => Ok(usual_threads()),
         },
     }
+}
+
+/// As rayon decides, but without starting the threads that it keeps for all.
+fn usual_threads() -> usize {
+    let told = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    told.filter(|&count| count > 0).unwrap_or_else(cores)
 }
 
 /// Do `work` on threads of its own, which are gone when this returns. `work` may send messages; each is handed

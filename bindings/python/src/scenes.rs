@@ -70,8 +70,8 @@ impl Scene {
     /// What would be computed, as JSON.
     fn plan(&self, py: Python<'_>, threads: Option<usize>) -> PyResult<String> {
         let threads = crate::job::threads(threads)?;
-        let planned = py.detach(|| planned(&self.0, threads));
-        planned.map_err(|error| raised(&error))
+        let work = |_: &Sender<()>| planned(&self.0, threads);
+        long(py, threads, work, |_, ()| Ok(()))?.map_err(|error| raised(&error))
     }
 
     /// All of a table: attributes, variables, and the large arrays by their names.

@@ -34,8 +34,9 @@ theta_deg = { from = 0, to = 180, count = 37 }
 """
     (tmp_path / "sweep.toml").write_text(text, encoding="utf-8")
     program("batch", "plan", tmp_path / "sweep.toml", "-o", tmp_path / "plan.jsonl")
-    program("batch", "run", tmp_path / "plan.jsonl", "--shards", tmp_path / "shards")
-    program("batch", "merge", tmp_path / "plan.jsonl", "--shards", tmp_path / "shards", "-o", tmp_path / "all.h5")
+    program("batch", "run", "--plan", tmp_path / "plan.jsonl", "--dir", tmp_path / "shards")
+    merged = ("--dir", tmp_path / "shards", "-o", tmp_path / "all.h5")
+    program("batch", "merge", "--plan", tmp_path / "plan.jsonl", *merged)
     with xr.open_dataset(tmp_path / "all.h5", engine="h5netcdf") as opened:
         file = opened.load()
     made = gonio.batch(gonio.Sphere(radius_um=1), {"particle.radius_um": [1, 2, 3]}, **FIXED)

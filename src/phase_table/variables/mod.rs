@@ -1,7 +1,7 @@
 //! A table as named variables with dimensions, units and words: what its file holds, and what a Dataset in
 //! Python holds, said once.
 //!
-//! The functions of this room write into a [`Store`]; one is an HDF5 file, the other is memory
+//! The functions of this room write into a `Store`; one is an HDF5 file, the other is memory
 //! ([`Description`]), for whoever wants the variables without a file.
 //!
 //! ```

@@ -82,7 +82,7 @@ class Sphere(Particle):
     >>> Sphere(radius_um=-1)
     Traceback (most recent call last):
         ...
-    ValueError: scene: particle.radius_um = -1: accepted are 1e-3 to 10000 µm
+    ValueError: scene: particle.radius_um = -1: a radius must be 0.000001 to 10 mm
     """
 
     shape: ClassVar[str] = "sphere"
