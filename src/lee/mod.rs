@@ -205,12 +205,14 @@ where
     P: Fn(&Angles) -> A + Sync,
     F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
+    cancel::checkpoint();
     let filter = request.sun_disc.then(|| SunFilter::new(sampling.cutoff, TRANSITION));
     let weights = weights(request, sampling);
     let bands = sampling
         .bands
         .par_iter()
         .map(|band| {
+            cancel::checkpoint();
             let angles = match &filter {
                 Some(filter) => {
                     let (first, last) = request.angles();

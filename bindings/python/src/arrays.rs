@@ -7,13 +7,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// The array of an argument; numbers are arrays without dimensions.
-pub fn array<T: Element + Clone>(
-    value: &Bound<'_, PyAny>,
-    name: &str,
-    accepted: &str,
-) -> PyResult<ArrayD<T>>
+pub fn array<T>(value: &Bound<'_, PyAny>, name: &str, accepted: &str) -> PyResult<ArrayD<T>>
 where
-    T: 'static,
+    T: Element + Clone + 'static,
     for<'a, 'py> PyArrayLikeDyn<'py, T, AllowTypeChange>: FromPyObject<'a, 'py>,
 {
     let read = value.extract::<PyArrayLikeDyn<'_, T, AllowTypeChange>>();
