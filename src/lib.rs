@@ -31,12 +31,13 @@
 //! Floors of the house, top first (a module imports only from floors below its own):
 //! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
 //! `farfield`, [`radar`] · `series`, `export` · `hdf5`, [`population`] · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
-//! `medium`, `shape`, `color`, `size_distribution` · `math`, `pending_file`, [`fault`].
+//! `medium`, `shape`, `color`, `size_distribution`, [`cancel`] · `math`, `pending_file`, [`fault`].
 //!
 //! Features, all on by default: `hdf5` (tables as files, exports, batches; brings C code), `cli` (the program),
 //! `pictures` (previews and diagrams as PNG and SVG, report pages). Without them the physics builds for wheels
 //! and for `wasm32-unknown-unknown`.
 
+pub mod cancel;
 pub mod fault;
 pub mod math;
 pub mod pending_file;

@@ -21,6 +21,7 @@ mod invalid;
 mod methods;
 mod plain;
 mod validate;
+pub mod variables;
 
 pub use averaging::{Averaging, DiscOfSun};
 pub use bodies::Bodies;

@@ -22,7 +22,7 @@ mod orders;
 mod t_matrix;
 
 pub use acceptance::{DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, PlanError, check_rays, phase_shift};
-pub use cost::Cost;
+pub use cost::{Cost, available_memory};
 pub use engine::Engine;
 pub use methods::PlannedRange;
 pub use orders::{last_order, orders_that_matter};

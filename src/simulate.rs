@@ -34,6 +34,7 @@ mod energy;
 mod error;
 mod header;
 mod order_power;
+mod series;
 mod t_matrix;
 
 pub use cross_sections::CrossSections;
@@ -52,10 +53,6 @@ use crate::plan::{Engine, Plan};
 use crate::population;
 use crate::scene::{Diffraction, Interference, Scene};
 use crate::series::SeriesError;
-use crate::series::debye::Term;
-use crate::series::mean::MeanError;
-use crate::series::table::{Source, SphereJob, sphere_slab};
-use crate::size_distribution::SizeDistribution;
 use crate::tabulate::slab::{Tabulator, Values};
 use crate::trace::Wavefront;
 use cross_sections::straight_ahead;
@@ -75,23 +72,52 @@ pub fn simulate<E: From<SimulateError>>(
     scene: &Scene,
     mut sink: impl FnMut(usize, Slab) -> Result<(), E>,
 ) -> Result<(), E> {
-    let plan = Plan::new(scene).map_err(SimulateError::from)?;
-    let header = header(scene, String::new())?;
-    let steps = drops::steps_of_kinds(scene, &plan)?;
     std::thread::scope(|scope| {
         let (sender, receiver) = std::sync::mpsc::sync_channel(1);
-        let (header, steps) = (&header, &steps);
         scope.spawn(move || {
-            for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-                let slab = checked_slab(scene, &plan, steps, header, wavelength);
-                let failed = slab.is_err();
-                if sender.send((i, slab)).is_err() || failed {
-                    return;
-                }
+            let computed =
+                in_turn(scene, |i, slab| sender.send(Ok((i, slab))).map_err(|_| Ended::Unheard));
+            if let Err(Ended::Failed(error)) = computed {
+                // Nobody listens where the sink failed first.
+                let _ = sender.send(Err(error));
             }
         });
-        receiver.into_iter().try_for_each(|(i, slab)| sink(i, slab?))
+        receiver.into_iter().try_for_each(|computed| {
+            let (i, slab) = computed?;
+            sink(i, slab)
+        })
     })
+}
+
+/// The same on the calling thread alone and those of rayon that belong to it: no slab is computed while the one
+/// before is handed on. For computations that [`crate::cancel`] is to stop.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn in_turn<E: From<SimulateError>>(
+    scene: &Scene,
+    mut sink: impl FnMut(usize, Slab) -> Result<(), E>,
+) -> Result<(), E> {
+    let plan = Plan::new(scene).map_err(SimulateError::from)?;
+    let header = header_of(scene, &plan, String::new());
+    let steps = drops::steps_of_kinds(scene, &plan)?;
+    for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
+        sink(i, checked_slab(scene, &plan, &steps, &header, wavelength)?)?;
+    }
+    Ok(())
+}
+
+/// Why no more slabs are computed.
+enum Ended {
+    Failed(SimulateError),
+    /// The sink has failed.
+    Unheard,
+}
+
+impl From<SimulateError> for Ended {
+    fn from(error: SimulateError) -> Self {
+        Self::Failed(error)
+    }
 }
 
 /// A whole table in memory, for those who look at it at once.
@@ -101,7 +127,7 @@ pub fn simulate<E: From<SimulateError>>(
 pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
     let header = header(scene, String::new())?;
     let mut slabs = Vec::new();
-    simulate::<SimulateError>(scene, |_, slab| {
+    in_turn::<SimulateError>(scene, |_, slab| {
         slabs.push(slab);
         Ok(())
     })?;
@@ -146,7 +172,7 @@ fn computed_slab(
     }
     let index = scene.medium.index(wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        let slab = series_slab(scene, plan, wavelength)?;
+        let slab = series::slab(scene, plan, wavelength)?;
         return Ok(Slab { methods: plan.series_parts(), ..slab });
     }
     if plan.engine == Engine::TMatrix {
@@ -341,25 +367,3 @@ fn far_field<'a>(
 
 /// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.
 const FIRST_SPOKE: f64 = 0.0123;
-
-/// The exact series for a sphere.
-fn series_slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, MeanError> {
-    let source = if plan.engine == Engine::LorenzMie {
-        Source::LorenzMie
-    } else {
-        let orders = plan.orders.iter().map(|&p| Term::Order(p));
-        Source::Debye(orders.chain(plan.forward_diffraction.then_some(Term::Diffraction)).collect())
-    };
-    let one = SizeDistribution::delta(plan.radius);
-    let job = SphereJob {
-        source,
-        sizes: scene.size_distribution.clone().unwrap_or(one),
-        medium: &scene.medium,
-        wavelength,
-        bandwidth: scene.bandwidth,
-        sun_disc: scene.sun_disc,
-        tolerance: scene.tolerance,
-        allow_unmet: scene.allow_unmet_tolerance,
-    };
-    sphere_slab(&job, &scene.theta, scene.quantity, scene.forward_peak)
-}

@@ -23,7 +23,7 @@ const FLOORS: [(u32, &[&str]); 13] = [
     (4, &["series", "export"]),
     (3, &["hdf5", "population"]),
     (2, &["scene", "phase_table", "trace", "sun_disc"]),
-    (1, &["optics", "medium", "shape", "color", "size_distribution"]),
+    (1, &["optics", "medium", "shape", "color", "size_distribution", "cancel"]),
     (0, &["math", "pending_file", "fault"]),
 ];
 

@@ -2,8 +2,8 @@
 
 use super::sweep::Sweep;
 use super::{BatchError, invalid};
-use crate::hdf5::format::schema::FORMAT_VERSION;
 use crate::pending_file::PendingFile;
+use crate::phase_table::variables::schema::FORMAT_VERSION;
 use crate::scene::{Scene, SceneFile, SceneText};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};

@@ -8,10 +8,10 @@ mod failure;
 mod interrupt;
 mod show;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, table,
-    validate,
+    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, shell,
+    table, validate,
 };
 use failure::{Failure, Result};
 use std::process::ExitCode;
@@ -47,6 +47,8 @@ enum Command {
     Render(render::RenderArgs),
     Batch(batch::BatchArgs),
     Bench(bench::BenchArgs),
+    Completions(shell::CompletionsArgs),
+    Man(shell::ManArgs),
 }
 
 /// Parse the command line, run the command, map errors to exit codes.
@@ -78,6 +80,8 @@ fn run(command: Command) -> Result<()> {
         Command::Render(args) => render::run(args),
         Command::Batch(args) => batch::run(args),
         Command::Bench(args) => bench::run(args),
+        Command::Completions(args) => shell::completions(&args, Cli::command()),
+        Command::Man(args) => shell::man(&args, Cli::command()),
     }
 }
 

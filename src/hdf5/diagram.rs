@@ -2,9 +2,9 @@
 //! scales, so that the same readers open them.
 
 use super::TableError;
-use super::file::created::Kind;
-use super::format::dimensions::scale;
 use super::output::{Output, WriteOptions};
+use crate::phase_table::variables::dimensions::scale;
+use crate::phase_table::variables::{Kind, Store, Variable};
 use std::path::Path;
 
 /// One axis.

@@ -1,8 +1,9 @@
 //! Plain netCDF-4 files for other programs: dimensions, variables, attributes as they are given.
 
-use super::file::created::{Kind, NewDataset, NewFile};
+use super::file::created::{NewDataset, NewFile};
 use super::output::{Output, WriteOptions};
 use super::{TableError, invalid};
+use crate::phase_table::variables::{Kind, Store, Variable};
 use std::path::Path;
 
 /// Values of a variable, last dimension fastest.

@@ -5,6 +5,7 @@ use super::file::created::NewFile;
 use super::space::available_bytes;
 use super::{TableError, invalid};
 use crate::pending_file::PendingFile;
+use crate::phase_table::variables::schema::Root;
 use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -35,6 +36,14 @@ impl Default for WriteOptions {
             dated: true,
             attributes: Vec::new(),
         }
+    }
+}
+
+impl WriteOptions {
+    /// What the attributes of the file tell of them.
+    pub(super) fn root<'a>(&'a self, format: &'a str) -> Root<'a> {
+        let Self { bit_round, dated, ref attributes, .. } = *self;
+        Root { format, bit_round, dated, attributes }
     }
 }
 

@@ -36,6 +36,9 @@ impl Diagram {
     }
 }
 
+/// Luminance that pictures give the brightest angle of each column.
+pub const PEAK: f64 = 0.8;
+
 /// Exposure of each column such that its brightest angle has the luminance `peak`.
 pub fn column_exposures(seen: &[Vec<[f64; 3]>], peak: f64) -> Vec<f64> {
     seen.iter()

@@ -38,10 +38,11 @@ mod wavelengths;
 
 pub use crate::optics::Polarisation;
 pub use columns::{Bodies, columns};
-pub use diagram::{Diagram, column_exposures, srgb};
+pub use diagram::{Diagram, PEAK, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};
 pub use sampling::Beats;
 
+use crate::cancel;
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
@@ -204,12 +205,14 @@ where
     P: Fn(&Angles) -> A + Sync,
     F: Fn(&[Drop], &A) -> Result<Vec<Vec<Intensity>>, E> + Sync,
 {
+    cancel::checkpoint();
     let filter = request.sun_disc.then(|| SunFilter::new(sampling.cutoff, TRANSITION));
     let weights = weights(request, sampling);
     let bands = sampling
         .bands
         .par_iter()
         .map(|band| {
+            cancel::checkpoint();
             let angles = match &filter {
                 Some(filter) => {
                     let (first, last) = request.angles();
@@ -222,6 +225,7 @@ where
             let prepared = prepare(&angles);
             let mut sums = vec![[0.0; 6]; angles.theta.len()];
             for first in band.places.clone().step_by(TOGETHER) {
+                cancel::checkpoint();
                 let places = first..(first + TOGETHER).min(band.places.end);
                 let drop = |i: usize| {
                     let wavelength = sampling.wavelengths[i];

@@ -29,6 +29,17 @@ pub fn tidy(value: f64) -> f64 {
     if (rounded - value).abs() <= 4.0 * f64::EPSILON * value.abs() { rounded } else { value }
 }
 
+/// Keep `bits` bits of the mantissa, rounding half to even; NaN and infinities stay.
+pub fn round_mantissa(value: f32, bits: u8) -> f32 {
+    let drop = 23 - u32::from(bits.clamp(1, 23));
+    if drop == 0 || !value.is_finite() {
+        return value;
+    }
+    let raw = value.to_bits();
+    let half = (1u32 << (drop - 1)) - 1 + ((raw >> drop) & 1);
+    f32::from_bits((raw + half) & !((1u32 << drop) - 1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::{degree, nm, to_digits};

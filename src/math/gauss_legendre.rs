@@ -4,24 +4,24 @@ use std::f64::consts::PI;
 
 /// `count` nodes, ascending, with their weights.
 pub fn nodes(count: usize) -> Vec<(f64, f64)> {
-    let n = count as f64;
-    (0..count)
-        .map(|i| {
-            // Tricomi's start is within the basin of every root.
-            let mut x = -(PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-            let mut slope = 1.0;
-            for _ in 0..100 {
-                let (value, derivative) = legendre(count, x);
-                slope = derivative;
-                let step = value / derivative;
-                x -= step;
-                if step.abs() < 1e-15 {
-                    break;
-                }
-            }
-            (x, 2.0 / ((1.0 - x * x) * slope * slope))
-        })
-        .collect()
+    (0..count).map(|i| node(count, i)).collect()
+}
+
+/// The node number `i` of `count`, from 0, and its weight: for those who share the work out.
+pub fn node(count: usize, i: usize) -> (f64, f64) {
+    // Tricomi's start is within the basin of every root.
+    let mut x = -(PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
+    let mut slope = 1.0;
+    for _ in 0..100 {
+        let (value, derivative) = legendre(count, x);
+        slope = derivative;
+        let step = value / derivative;
+        x -= step;
+        if step.abs() < 1e-15 {
+            break;
+        }
+    }
+    (x, 2.0 / ((1.0 - x * x) * slope * slope))
 }
 
 /// P_n and its derivative.

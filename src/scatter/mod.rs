@@ -23,17 +23,20 @@
 //! ```
 
 mod rays;
+mod scene;
 mod series;
 mod size;
 mod tmatrix;
 
 pub use rays::{RayDiffraction, RayRequest, rays};
+pub use scene::of_scene;
 pub use series::{DebyeTerms, debye, lorenz_mie};
 pub use size::{Size, SizeConflict};
 pub use tmatrix::t_matrix;
 
 use crate::farfield::ErrorEstimate;
 use crate::fault::{Blame, Fault};
+use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
 use crate::plan::PlanError;
 use crate::series::tmatrix::TMatrixError;
@@ -96,6 +99,12 @@ pub enum ScatterError {
     TMatrix(#[from] TMatrixError),
     #[error(transparent)]
     Simulate(#[from] SimulateError),
+    #[error(transparent)]
+    Medium(#[from] MediumError),
+    #[error(
+        "particle: amplitudes are those of one particle of one size that stands still: make a table of many"
+    )]
+    Several,
     /// Share of the light.
     #[error("energy does not add up: {0:e} of the light is unaccounted for")]
     Energy(f64),
@@ -108,6 +117,7 @@ impl Blame for ScatterError {
             ScatterError::Series(error) => error.fault(),
             ScatterError::TMatrix(error) => error.fault(),
             ScatterError::Simulate(error) => error.fault(),
+            ScatterError::Medium(_) | ScatterError::Several => Fault::Input,
             ScatterError::Energy(_) => Fault::Run,
         }
     }

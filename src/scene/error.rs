@@ -113,6 +113,16 @@ impl SceneError {
         })
     }
 
+    /// The same error of a scene that has no lines.
+    pub(super) fn without_line(mut self) -> Self {
+        if let SceneError::Syntax { place, .. } | SceneError::UnknownKey { place, .. } = &mut self
+            && let Place::File { line, .. } = &mut **place
+        {
+            *line = None;
+        }
+        self
+    }
+
     /// The same error with its bare key replaced by the place that the key came from.
     pub(super) fn placed(mut self, place_of: impl Fn(&str) -> Place) -> Self {
         match &mut self {

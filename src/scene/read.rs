@@ -18,6 +18,8 @@ pub struct SceneText {
     /// Folder of the file, where the files that it names are looked for.
     pub folder: PathBuf,
     text: String,
+    /// Whether lines of the text mean something to whoever wrote the scene.
+    numbered: bool,
     /// The keys.
     pub file: SceneFile,
 }
@@ -50,12 +52,32 @@ impl SceneText {
         let document = DeTable::parse(&text).map_err(syntax)?;
         check_keys(name, &text, document.get_ref())?;
         let file = toml::from_str(&text).map_err(syntax)?;
-        Ok(SceneText { name: name.into(), folder: PathBuf::new(), text, file })
+        Ok(SceneText { name: name.into(), folder: PathBuf::new(), text, numbered: true, file })
+    }
+
+    /// A scene that is no text but keys and values, such as a program has; `name` stands for it in messages.
+    ///
+    /// ```
+    /// use gonio::scene::{Scene, SceneFile, SceneText};
+    ///
+    /// let keys: toml::Table = toml::from_str("particle = { shape = 'sphere', radius_um = -1 }")?;
+    /// let error = Scene::from_text(SceneText::of_keys("scene", &keys)?, &SceneFile::default()).unwrap_err();
+    /// assert!(error.to_string().starts_with("scene: particle.radius_um = -1: "), "{error}");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Unknown keys or values of the wrong kind.
+    pub fn of_keys(name: &str, keys: &toml::Table) -> Result<SceneText, SceneError> {
+        let text = SceneText::parse(name, keys.to_string());
+        let text = text.map_err(SceneError::without_line)?;
+        Ok(SceneText { numbered: false, ..text })
     }
 
     /// The place of a dotted key in this file.
     pub fn place_of(&self, key: &str) -> Place {
-        let line = self.span_of(key).map(|span| line_at(&self.text, span.start));
+        let span = self.span_of(key).filter(|_| self.numbered);
+        let line = span.map(|span| line_at(&self.text, span.start));
         Place::File { file: self.name.clone(), line, key: key.into() }
     }
 

@@ -24,6 +24,7 @@
 //! Angles run in SIMD lanes, a block of lanes is carried over a chunk of orders whose
 //! coefficients stay in the first-level cache, and its state is kept between chunks.
 
+use crate::cancel;
 use crate::math::fused::multiply_add;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
@@ -260,6 +261,7 @@ fn run<const W: usize>(blocks: &mut [Block<W>], series: &[Waves; W], sides: Side
     let longest = series.iter().map(|(a, _)| a.len()).max().unwrap_or(0);
     let mut records = Vec::with_capacity(CHUNK);
     for first in (0..longest).step_by(CHUNK) {
+        cancel::checkpoint();
         fill_records(first..(first + CHUNK).min(longest), series, &mut records);
         advance(blocks, &records, sides);
     }

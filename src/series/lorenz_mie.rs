@@ -12,6 +12,7 @@
 
 use super::angular::{self, AngleSet};
 use super::{Efficiencies, SeriesError, checked_term_count};
+use crate::cancel;
 use crate::math::riccati_bessel::{PsiChi, psi_chi, ratios};
 use num_complex::Complex64;
 
@@ -94,6 +95,9 @@ impl Sphere {
     }
 }
 
+/// Terms between looks whether to go on.
+const OFTEN: usize = 1 << 16;
+
 type Coefficients = (Vec<Complex64>, Vec<Complex64>, f64);
 
 /// Transparent sphere: `N` and `Q` are real, so |1 - 2a_n| = 1 holds to rounding.
@@ -107,6 +111,9 @@ fn coefficients_real(x: f64, m: f64, outside: &PsiChi) -> Coefficients {
     let contrast = (1.0 - m) * (1.0 + m) / (m * m);
     let (mut a, mut b) = (Vec::with_capacity(terms), Vec::with_capacity(terms));
     for n in 1..=terms {
+        if n % OFTEN == 0 {
+            cancel::checkpoint();
+        }
         let lead = (n + 1) as f64 / x;
         let (u, u_outside) = (inside[n + 1], outside.ratio[n + 1]);
         let for_a = u_outside - u / m;
@@ -133,6 +140,9 @@ fn coefficients_complex(x: f64, m: Complex64, outside: &PsiChi) -> Coefficients 
     let (mut a, mut b) = (Vec::with_capacity(terms), Vec::with_capacity(terms));
     let mut absorbed = 0.0;
     for n in 1..=terms {
+        if n % OFTEN == 0 {
+            cancel::checkpoint();
+        }
         let lead = (n + 1) as f64 / x;
         let (u, u_outside) = (inside[n + 1], outside.ratio[n + 1]);
         let (over, times) = (u / m, u * m);

@@ -18,6 +18,7 @@ pub mod debye;
 mod debye_error;
 pub(crate) mod even_angles;
 pub(crate) mod lanes;
+mod legendre;
 pub mod lorenz_mie;
 pub mod mean;
 mod stretch;
@@ -92,6 +93,7 @@ fn checked_term_count(size_parameter: f64, index: Complex64) -> Result<usize, Se
     if !(index.re.is_finite() && index.im.is_finite() && index.re > 0.0 && index.im >= 0.0) {
         return Err(SeriesError::Index(index));
     }
+    crate::cancel::checkpoint();
     let terms = term_count(size_parameter).max(index.norm() * size_parameter);
     if terms > MAX_TERMS as f64 {
         return Err(SeriesError::TooManyTerms { size_parameter, index, terms });

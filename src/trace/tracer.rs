@@ -3,6 +3,7 @@
 use super::exit::Exit;
 use super::ray::Ray;
 use super::surface_event::{Event, Interface};
+use crate::cancel;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 use crate::shape::{Shape, Tangent};
@@ -185,6 +186,7 @@ impl<'a> Tracer<'a> {
 
     /// The ray at its first meeting with the surface.
     fn launch<T: Scalar>(&self, u: T, v: T) -> Option<Ray<T>> {
+        cancel::checkpoint();
         let t = self.shape.entry(u, v)?;
         let (zero, one) = (T::default(), T::real(1.0));
         let unit = |x: f64, y: f64| Vec3 {

@@ -2,7 +2,7 @@
 
 use crate::cli::failure::{Failure, Result};
 use clap::Args;
-use gonio::plan::{Engine, Plan};
+use gonio::plan::{Engine, Plan, available_memory};
 use gonio::scene::{Scene, human_bytes};
 
 /// The flag of commands that estimate their memory before they start.
@@ -16,7 +16,7 @@ pub struct MemoryFlag {
 impl MemoryFlag {
     /// The limit, bytes; `None` where none is given and the system does not say what is free.
     pub fn limit(self) -> Option<u64> {
-        self.memory_limit.or_else(available)
+        self.memory_limit.or_else(available_memory)
     }
 
     /// Refuse a scene that would not fit.
@@ -54,12 +54,4 @@ fn gibibytes(text: &str) -> Result<u64, String> {
         }
         _ => Err("a number of GiB above 0 is accepted, such as 8 or 0.5".into()),
     }
-}
-
-/// Memory that is free, bytes; `None` where the system does not say.
-fn available() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kibibytes << 10)
 }

@@ -12,5 +12,6 @@ pub mod radar;
 pub mod rays;
 pub mod render;
 pub mod scatter;
+pub mod shell;
 pub mod table;
 pub mod validate;

@@ -6,6 +6,7 @@
 use super::knots::{Kind, Knot, Segment, parabola_slopes};
 use super::samples::{Samples, Side, Sums};
 use super::wave_kernels::{Piece, pair, single};
+use crate::cancel;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use std::f64::consts::{PI, TAU};
@@ -21,6 +22,7 @@ pub fn add_segment(
     side: Side,
     size_parameter: f64,
 ) {
+    cancel::checkpoint();
     let (first, last) = match (segment.knots.first(), segment.knots.last()) {
         (Some(a), Some(b)) => (a.angle(), b.angle()),
         _ => return,

@@ -4,6 +4,7 @@ use super::channels::{Channels, FIELDS, PLACE, Place, by_launch, channels, width
 use super::coarse::{CoarseGrid, Kind, SPOKES, blend};
 use super::kernel::{Column, Ray};
 use super::lattice::{Lattice, Ring};
+use crate::cancel;
 use crate::farfield::wave_field::WaveField;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
@@ -93,6 +94,7 @@ impl<'a> ComplexWavefront<'a> {
         let mut near: Vec<usize> = Vec::with_capacity(columns.len());
         for ring in &self.lattice.rings {
             let rows = self.grid.rows(ring.alpha);
+            cancel::checkpoint();
             for spoke in 0..SPOKES {
                 let cell = self.grid.cell(rows.cell, spoke);
                 if cell.kind == Kind::Empty {

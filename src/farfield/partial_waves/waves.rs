@@ -14,6 +14,7 @@
 //! in the WKB form, with impacts beyond the rim where waves tunnel ([`crate::farfield::impact_integral::near_grazing`]).
 
 use super::potentials::{Potentials, potentials};
+use crate::cancel;
 use crate::farfield::assignment::Thresholds;
 use crate::farfield::wave_field::WaveField;
 use crate::math::spherical_harmonics::legendre;
@@ -70,6 +71,7 @@ impl PartialWaves {
             .unwrap_or(0);
         let count = ((0.5 * SAMPLES_PER_PERIOD * last as f64).ceil() as usize).max(2 * REACH);
         let sample = |j: usize| {
+            cancel::checkpoint();
             let theta = PI * (j as f64 + 0.5) / count as f64;
             // near the axis those of large m are next to nothing
             let degree = last as f64;

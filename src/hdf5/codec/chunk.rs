@@ -6,6 +6,7 @@
 //! distribution but no repeats and are coded byte by byte ([`super::literal`]), and only what
 //! repeats goes through the compressor. That is several times faster at about the same size.
 
+use crate::math::digits::round_mantissa;
 use libdeflater::{CompressionLvl, Compressor, adler32};
 use rayon::prelude::*;
 
@@ -129,17 +130,6 @@ pub fn encode_and_write<J: Sync, E: Send>(
 pub fn encoders(level: u8, bit_round: Option<u8>) -> Vec<ChunkEncoder> {
     let count = 4 * rayon::current_num_threads().max(1);
     (0..count).map(|_| ChunkEncoder::new(level, bit_round)).collect()
-}
-
-/// Keep `bits` bits of the mantissa, rounding half to even; NaN and infinities stay.
-fn round_mantissa(value: f32, bits: u8) -> f32 {
-    let drop = 23 - u32::from(bits.clamp(1, 23));
-    if drop == 0 || !value.is_finite() {
-        return value;
-    }
-    let raw = value.to_bits();
-    let half = (1u32 << (drop - 1)) - 1 + ((raw >> drop) & 1);
-    f32::from_bits((raw + half) & !((1u32 << drop) - 1))
 }
 
 /// HDF5's shuffle filter: first all lowest bytes, last all highest bytes.

@@ -5,22 +5,12 @@
 
 use super::failure::unwritable;
 use crate::hdf5::{TableError, ffi};
+use crate::phase_table::variables::{Kind, Store, Variable};
 use hdf5::dataset::FillTime;
 use hdf5::file::{FileCloseDegree, LibraryVersion, LinkCreationOrder};
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type, Location};
 use std::path::{Path, PathBuf};
-
-/// What the values of a dataset are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    F32,
-    F64,
-    I32,
-    U8,
-    /// Strings of any length: what h5netcdf and netCDF-C both show as text in variables.
-    Texts,
-}
 
 /// A file being written.
 #[derive(Debug)]
@@ -59,16 +49,6 @@ impl NewFile {
         });
         let file = options.create(temporary).map_err(|error| unwritable(path, &error))?;
         Ok(NewFile { file, path: path.to_path_buf() })
-    }
-
-    /// Write a text attribute of the file.
-    pub fn attribute(&self, name: &str, text: &str) -> Result<(), TableError> {
-        text_attribute(&self.path, &self.file, name, text)
-    }
-
-    /// Write an integer attribute of the file.
-    pub fn attribute_integer(&self, name: &str, value: i32) -> Result<(), TableError> {
-        integer_attribute(&self.path, &self.file, name, value)
     }
 
     /// Create a dataset; chunked and compressed, or contiguous (a scalar when `shape` is empty).
@@ -118,8 +98,45 @@ impl NewDataset {
         self.shape.first().copied().unwrap_or(1)
     }
 
-    /// Write all strings of a dataset of [`Kind::Texts`].
-    pub fn write_texts(&self, texts: &[String]) -> Result<(), TableError> {
+    /// Write one chunk as it is, already through the dataset's filters.
+    pub fn write_chunk(&self, offset: &[u64], bytes: &[u8]) -> Result<(), TableError> {
+        self.done(ffi::write_chunk(&self.dataset, offset, bytes))
+    }
+
+    fn done(&self, result: hdf5::Result<()>) -> Result<(), TableError> {
+        result.map_err(|error| unwritable(&self.path, &error))
+    }
+}
+
+impl Store for NewFile {
+    type Variable = NewDataset;
+    type Error = TableError;
+
+    fn attribute(&self, name: &str, text: &str) -> Result<(), TableError> {
+        text_attribute(&self.path, &self.file, name, text)
+    }
+
+    fn attribute_integer(&self, name: &str, value: i32) -> Result<(), TableError> {
+        integer_attribute(&self.path, &self.file, name, value)
+    }
+
+    fn variable(&self, name: &str, kind: Kind, shape: &[u64]) -> Result<NewDataset, TableError> {
+        self.dataset(name, kind, shape, None)
+    }
+}
+
+impl Variable for NewDataset {
+    type Error = TableError;
+
+    fn write_numbers(&self, values: &[f64]) -> Result<(), TableError> {
+        self.write(values)
+    }
+
+    fn write_integers(&self, values: &[i32]) -> Result<(), TableError> {
+        self.write(values)
+    }
+
+    fn write_texts(&self, texts: &[String]) -> Result<(), TableError> {
         let stored = |text: &String| {
             let refused = |_| format!("a text with a zero byte cannot be stored: {text:?}").into();
             text.parse::<VarLenUnicode>().map_err(refused)
@@ -128,38 +145,25 @@ impl NewDataset {
         self.done(texts.and_then(|texts| self.dataset.write_raw(&texts)))
     }
 
-    /// Write one chunk as it is, already through the dataset's filters.
-    pub fn write_chunk(&self, offset: &[u64], bytes: &[u8]) -> Result<(), TableError> {
-        self.done(ffi::write_chunk(&self.dataset, offset, bytes))
-    }
-
-    /// Write a text attribute of the dataset.
-    pub fn attribute(&self, name: &str, text: &str) -> Result<(), TableError> {
+    fn attribute(&self, name: &str, text: &str) -> Result<(), TableError> {
         text_attribute(&self.path, &self.dataset, name, text)
     }
 
-    /// Write an integer attribute of the dataset.
-    pub fn attribute_integer(&self, name: &str, value: i32) -> Result<(), TableError> {
+    fn attribute_integer(&self, name: &str, value: i32) -> Result<(), TableError> {
         integer_attribute(&self.path, &self.dataset, name, value)
     }
 
-    /// Make this dataset the coordinate of the dimension of the same name.
-    pub fn make_scale(&self, name: &str) -> Result<(), TableError> {
+    fn make_scale(&self, name: &str) -> Result<(), TableError> {
         self.done(ffi::make_scale(&self.dataset, name))
     }
 
-    /// Attach the coordinates of the dimensions, in order.
-    pub fn attach(&self, scales: &[&NewDataset]) -> Result<(), TableError> {
+    fn attach(&self, scales: &[&Self]) -> Result<(), TableError> {
         assert_eq!(scales.len(), self.shape.len(), "one scale per dimension");
         let mut numbered = (0..).zip(scales);
         let attach = |(index, scale): (u32, &&NewDataset)| {
             ffi::attach_scale(&self.dataset, &scale.dataset, index)
         };
         self.done(numbered.try_for_each(attach))
-    }
-
-    fn done(&self, result: hdf5::Result<()>) -> Result<(), TableError> {
-        result.map_err(|error| unwritable(&self.path, &error))
     }
 }
 

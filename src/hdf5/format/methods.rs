@@ -1,26 +1,12 @@
-//! By which methods a table was computed: JSON in one attribute of a table, in one text per table of a
-//! sweep.
+//! By which methods tables were computed: those of a sweep written, and all of them read.
 
-use super::record::Record;
-use crate::hdf5::file::created::{Kind, NewDataset, NewFile};
+use crate::hdf5::file::created::{NewDataset, NewFile};
 use crate::hdf5::file::opened::OpenFile;
 use crate::hdf5::{TableError, damaged};
 use crate::phase_table::MethodRange;
-
-/// The attribute, and the variable of a sweep.
-pub const METHODS: &str = "methods";
-
-/// Of one table; nothing where no method is known.
-pub fn write_methods(
-    file: &NewFile,
-    wavelengths: &[f64],
-    records: &[Option<Record>],
-) -> Result<(), TableError> {
-    match text(wavelengths, records) {
-        text if text.is_empty() => Ok(()),
-        text => file.attribute(METHODS, &text),
-    }
-}
+use crate::phase_table::variables::methods::{METHODS, text};
+use crate::phase_table::variables::record::Record;
+use crate::phase_table::variables::{Kind, Store, Variable};
 
 /// Of all tables of a sweep; nothing where none is known.
 pub fn write_swept_methods(
@@ -35,21 +21,10 @@ pub fn write_swept_methods(
     if texts.iter().all(String::is_empty) {
         return Ok(());
     }
-    let data = file.dataset(METHODS, Kind::Texts, shape, None)?;
+    let data = file.variable(METHODS, Kind::Texts, shape)?;
     data.write_texts(&texts)?;
     data.attribute("long_name", "JSON: what computed each order, why, its expected error")?;
     data.attach(dimensions)
-}
-
-/// JSON of the ranges of one table; empty where nothing is known.
-fn text(wavelengths: &[f64], records: &[Option<Record>]) -> String {
-    let known: Vec<&Record> = records.iter().flatten().collect();
-    if known.len() < records.len() || known.iter().all(|record| record.methods.is_empty()) {
-        return String::new();
-    }
-    let methods = known.iter().map(|record| &record.methods);
-    let ranges = MethodRange::collect(wavelengths.iter().copied().zip(methods));
-    serde_json::to_string(&ranges).unwrap_or_default()
 }
 
 /// Of the table at `leading`, its place in a sweep (empty: a table). Tables of older versions have none.

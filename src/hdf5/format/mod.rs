@@ -1,7 +1,8 @@
-//! What stands in a file: names, units and words, and how each is written and read.
+//! What stands in a file beyond the schema: chunks of its faces, and how what it has once is read.
 
 pub mod circumstances;
-pub mod dimensions;
+pub mod faces;
 pub mod methods;
-pub mod record;
-pub mod schema;
+
+/// Root attribute `format` of a merged sweep.
+pub const SWEEP_FORMAT: &str = "gonio phase table sweep";

@@ -2,8 +2,8 @@
 
 use crate::hdf5::file::opened::{OpenDataset, OpenFile};
 use crate::hdf5::format::circumstances::read_numbers;
-use crate::hdf5::format::schema::FORMAT_VERSION;
 use crate::hdf5::{TableError, damaged, foreign};
+use crate::phase_table::variables::schema::FORMAT_VERSION;
 use crate::phase_table::{Averaging, Axes, ForwardPeak, Quantity, TableHeader};
 
 /// Version known, and written to the end.

@@ -3,7 +3,7 @@
 use crate::hdf5::TableError;
 use crate::hdf5::file::opened::OpenFile;
 use crate::hdf5::format::methods::read_methods;
-use crate::hdf5::format::record::{BY_DIRECTION, ENERGY, LATER, LEFT_OUT, PLAIN, Record};
+use crate::phase_table::variables::record::{BY_DIRECTION, ENERGY, LATER, LEFT_OUT, PLAIN, Record};
 use crate::phase_table::{ERROR_BANDS, EnergyBudget, MethodRange};
 use num_complex::Complex64;
 

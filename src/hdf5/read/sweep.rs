@@ -4,11 +4,12 @@ use super::header::{check_version, coordinate, read_header};
 use super::records::read_records;
 use super::table::slab_at;
 use crate::hdf5::file::opened::OpenFile;
+use crate::hdf5::format::SWEEP_FORMAT;
 use crate::hdf5::format::circumstances::read_numbers;
-use crate::hdf5::format::record::Record;
-use crate::hdf5::format::schema::{SWEEP_FORMAT, values_name};
 use crate::hdf5::sweep_axis::{AxisValues, SweepAxis, SweepCoordinate};
 use crate::hdf5::{TableError, damaged, foreign};
+use crate::phase_table::variables::record::Record;
+use crate::phase_table::variables::schema::values_name;
 use crate::phase_table::{PhaseTable, TableHeader};
 use std::path::Path;
 

@@ -3,9 +3,10 @@
 use super::header::{check_version, read_header};
 use super::records::read_records;
 use crate::hdf5::file::opened::OpenFile;
-use crate::hdf5::format::record::Record;
-use crate::hdf5::format::schema::{ELEMENTS, FORMAT, SWEEP_FORMAT, values_name};
+use crate::hdf5::format::SWEEP_FORMAT;
 use crate::hdf5::{TableError, damaged, foreign, invalid};
+use crate::phase_table::variables::record::Record;
+use crate::phase_table::variables::schema::{ELEMENTS, FORMAT, values_name};
 use crate::phase_table::{PhaseTable, Quantity, Slab, TableHeader};
 use ndarray::{Array2, Array3};
 use std::path::Path;

@@ -4,16 +4,16 @@
 //! in a fixed order, so that the file does not depend on which core was faster.
 
 use crate::hdf5::codec::chunk::{ChunkEncoder, encode_and_write, encoders};
-use crate::hdf5::file::created::{Chunking, Kind, NewDataset, NewFile};
-use crate::hdf5::format::dimensions::{Dimensions, chunk_corners, chunk_shape};
-use crate::hdf5::format::schema::values_name;
+use crate::hdf5::file::created::{Chunking, NewDataset, NewFile};
+use crate::hdf5::format::faces::{chunk_corners, chunk_shape};
 use crate::hdf5::output::WriteOptions;
 use crate::hdf5::{TableError, invalid};
+use crate::phase_table::variables::Kind;
+use crate::phase_table::variables::dimensions::Dimensions;
+use crate::phase_table::variables::schema::values_name;
+use crate::phase_table::variables::values::{CAUSTIC_ORDER, describe_caustic, describe_values};
 use crate::phase_table::{Quantity, Slab, TableHeader};
 use ndarray::{Array2, ArrayView2};
-
-/// Variables that accompany the values without being dimensions.
-const COORDINATES: &str = "angle_from_antisolar_point radius_um sun_elevation solar_zenith_angle";
 
 /// The values of a table or a sweep, being written.
 pub struct Body {
@@ -42,7 +42,7 @@ impl Body {
     pub fn create(
         file: &NewFile,
         header: &TableHeader,
-        dimensions: &Dimensions,
+        dimensions: &Dimensions<NewDataset>,
         leading: &[(&NewDataset, u64)],
         options: &WriteOptions,
     ) -> Result<Body, TableError> {
@@ -62,26 +62,8 @@ impl Body {
         let (shape, chunking) = layout.shape(with_element);
         let values =
             file.dataset(values_name(header.quantity), Kind::F32, &shape, Some(&chunking))?;
-        values.attribute("units", "sr-1")?;
-        values.attribute(
-            "long_name",
-            match header.quantity {
-                Quantity::PhaseFunction => "phase function, integral over the sphere 1",
-                Quantity::Mueller => {
-                    "Mueller matrix, scaled so that the integral of element 11 is 1"
-                }
-            },
-        )?;
-        values.attribute("coordinates", COORDINATES)?;
-        if let Some(bits) = options.bit_round {
-            let name = "_QuantizeBitRoundNumberOfSignificantBits";
-            values.attribute_integer(name, i32::from(bits))?;
-        }
-        let mut scales: Vec<&NewDataset> = leading.iter().map(|(scale, _)| *scale).collect();
-        scales.push(&dimensions.wavelength);
-        scales.extend(&dimensions.element);
-        scales.extend([&dimensions.theta, &dimensions.phi]);
-        values.attach(&scales)?;
+        let leading: Vec<&NewDataset> = leading.iter().map(|(scale, _)| *scale).collect();
+        describe_values(&values, dimensions, &leading, header.quantity, options.bit_round)?;
         let encoders = encoders(layout.deflate, options.bit_round);
         Ok(Body { values, caustic: None, layout, encoders })
     }
@@ -90,7 +72,7 @@ impl Body {
     pub fn write(
         &mut self,
         file: &NewFile,
-        dimensions: &Dimensions,
+        dimensions: &Dimensions<NewDataset>,
         scales: &[&NewDataset],
         position: &[u64],
         slab: &Slab,
@@ -109,19 +91,12 @@ impl Body {
 fn create_caustic(
     file: &NewFile,
     layout: &Layout,
-    dimensions: &Dimensions,
+    dimensions: &Dimensions<NewDataset>,
     leading: &[&NewDataset],
 ) -> Result<NewDataset, TableError> {
     let (shape, chunking) = layout.shape(false);
-    let data = file.dataset("caustic_order", Kind::U8, &shape, Some(&chunking))?;
-    data.attribute("units", "1")?;
-    data.attribute(
-        "long_name",
-        "number of rays that coalesce where the two-ray uniform formula does not hold, else 0",
-    )?;
-    let mut scales = leading.to_vec();
-    scales.extend([&dimensions.wavelength, &dimensions.theta, &dimensions.phi]);
-    data.attach(&scales)?;
+    let data = file.dataset(CAUSTIC_ORDER, Kind::U8, &shape, Some(&chunking))?;
+    describe_caustic(&data, dimensions, leading)?;
     Ok(data)
 }
 

@@ -1,23 +1,26 @@
 //! Many tables in one file: a sweep, with one more leading dimension per swept value.
 
 use super::body::{Body, check_slab};
-use crate::hdf5::file::created::{Kind, NewDataset, NewFile};
-use crate::hdf5::format::circumstances::{write_numbers, write_scalars};
-use crate::hdf5::format::dimensions::Dimensions;
+use crate::hdf5::file::created::{NewDataset, NewFile};
+use crate::hdf5::format::SWEEP_FORMAT;
+use crate::hdf5::format::faces::write_solid_angle;
 use crate::hdf5::format::methods::write_swept_methods;
-use crate::hdf5::format::record::{Record, write_records};
-use crate::hdf5::format::schema::{SWEEP_FORMAT, write_root};
 use crate::hdf5::output::{Output, WriteOptions};
 use crate::hdf5::space::estimate_bytes;
 use crate::hdf5::sweep_axis::{AxisValues, SweepAxis};
 use crate::hdf5::{TableError, invalid};
+use crate::phase_table::variables::circumstances::{write_numbers, write_scalars};
+use crate::phase_table::variables::dimensions::Dimensions;
+use crate::phase_table::variables::record::{Record, write_records};
+use crate::phase_table::variables::schema::write_root;
+use crate::phase_table::variables::{Kind, Store, Variable};
 use crate::phase_table::{Slab, TableHeader};
 use std::path::Path;
 
 /// A sweep being written. Dropped before [`SweepWriter::finish`] it leaves nothing behind.
 pub struct SweepWriter {
     body: Body,
-    dimensions: Dimensions,
+    dimensions: Dimensions<NewDataset>,
     scales: Vec<NewDataset>,
     shape: Vec<u64>,
     file: NewFile,
@@ -45,13 +48,13 @@ impl SweepWriter {
         let bytes = estimate_bytes(header).saturating_mul(tables);
         let output = Output::start(path, bytes, options)?;
         let file = output.create()?;
-        write_root(&file, header, SWEEP_FORMAT, options)?;
+        write_root(&file, header, &options.root(SWEEP_FORMAT))?;
         let names: Vec<&str> = axes.iter().map(SweepAxis::name).collect();
         file.attribute("sweep_axes", &names.join(" "))?;
         let scales =
             axes.iter().map(|axis| write_axis(&file, axis)).collect::<Result<Vec<_>, _>>()?;
         let dimensions = Dimensions::create(&file, &header.axes, header.quantity)?;
-        dimensions.write_solid_angle(&file, &header.axes)?;
+        write_solid_angle(&file, &dimensions, &header.axes)?;
         let swept = |name: &str| axes.iter().flat_map(|a| &a.coordinates).any(|c| c.name == name);
         write_scalars(&file, header, swept)?;
         let leading: Vec<(&NewDataset, u64)> = scales.iter().zip(shape.iter().copied()).collect();

@@ -1,15 +1,17 @@
 //! Writing one table, wavelength by wavelength: memory does not grow with their number.
 
 use super::body::{Body, check_slab};
-use crate::hdf5::file::created::NewFile;
-use crate::hdf5::format::circumstances::{write_numbers, write_scalars};
-use crate::hdf5::format::dimensions::Dimensions;
-use crate::hdf5::format::methods::write_methods;
-use crate::hdf5::format::record::{Record, write_records};
-use crate::hdf5::format::schema::{FORMAT, write_root};
+use crate::hdf5::file::created::{NewDataset, NewFile};
+use crate::hdf5::format::faces::write_solid_angle;
 use crate::hdf5::output::{Output, WriteOptions};
 use crate::hdf5::space::estimate_bytes;
 use crate::hdf5::{TableError, invalid};
+use crate::phase_table::variables::Store;
+use crate::phase_table::variables::circumstances::{write_numbers, write_scalars};
+use crate::phase_table::variables::dimensions::Dimensions;
+use crate::phase_table::variables::methods::write_methods;
+use crate::phase_table::variables::record::{Record, write_records};
+use crate::phase_table::variables::schema::{FORMAT, write_root};
 use crate::phase_table::{PhaseTable, Slab, TableHeader};
 use std::path::Path;
 
@@ -17,7 +19,7 @@ use std::path::Path;
 pub struct TableWriter {
     // Closed before the pending file is removed: fields drop in this order.
     body: Body,
-    dimensions: Dimensions,
+    dimensions: Dimensions<NewDataset>,
     file: NewFile,
     output: Output,
     header: TableHeader,
@@ -44,9 +46,9 @@ impl TableWriter {
         header.validate()?;
         let output = Output::start(path, estimate_bytes(header), &options)?;
         let file = output.create()?;
-        write_root(&file, header, FORMAT, &options)?;
+        write_root(&file, header, &options.root(FORMAT))?;
         let dimensions = Dimensions::create(&file, &header.axes, header.quantity)?;
-        dimensions.write_solid_angle(&file, &header.axes)?;
+        write_solid_angle(&file, &dimensions, &header.axes)?;
         write_scalars(&file, header, |_| false)?;
         write_numbers(&file, &[Some(header.clone())], &[], &[])?;
         let body = Body::create(&file, header, &dimensions, &[], &options)?;

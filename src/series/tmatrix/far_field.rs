@@ -9,6 +9,7 @@
 use super::kernel::rotation::{sign, wigner};
 use super::kernel::waves::{Angular, gamma};
 use super::matrix::TMatrix;
+use crate::cancel;
 use crate::math::gauss_legendre;
 use crate::optics::AmplitudeMatrix;
 use num_complex::Complex64;
@@ -156,6 +157,7 @@ impl Scattered {
 
     /// Components `[along θ̂, along φ̂][light along x, along y]` of `F` at an angle, by order.
     fn rings(&self, theta: f64) -> Vec<Ring> {
+        cancel::checkpoint();
         let (sin, cos) = theta.sin_cos();
         let mut angular = Angular::default();
         self.orders

@@ -14,6 +14,7 @@ use super::kernel::surface::Surface;
 use super::kernel::waves::{NodeWaves, on_surface};
 use super::kernel::{least_squares, null_field};
 use super::matrix::TMatrix;
+use crate::cancel;
 use crate::shape::Shape;
 use num_complex::Complex64;
 use rayon::prelude::*;
@@ -172,6 +173,7 @@ impl<'a> Problem<'a> {
     }
 
     fn block(&self, solver: Solver, waves: &[NodeWaves], m: usize, top: usize) -> OrderBlock {
+        cancel::checkpoint();
         let mirror = self.surface.mirror;
         match solver {
             Solver::NullField => null_field::order_block(waves, self.index, m, top, mirror),

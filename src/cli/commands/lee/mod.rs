@@ -10,13 +10,10 @@ use crate::cli::failure::{Failure, Result};
 use crate::cli::show::{notes, progress};
 use args::LeeShape;
 use gonio::lee::file::{About, save};
-use gonio::lee::{Bodies, Diagram, Raindrops, Request, column_exposures, columns, srgb};
+use gonio::lee::{Bodies, Diagram, PEAK, Raindrops, Request, column_exposures, columns, srgb};
 use gonio::medium::MediumSpec;
 use std::path::Path;
 use std::time::Instant;
-
-/// Luminance of the brightest angle of each column.
-const PEAK: f64 = 0.8;
 
 pub fn run(args: LeeArgs) -> Result<()> {
     if args.output.is_none() && args.data.is_none() && !args.json {

@@ -4,8 +4,7 @@
 //! known only then.
 
 use super::dimensions::scale;
-use crate::hdf5::TableError;
-use crate::hdf5::file::created::{Kind, NewDataset, NewFile};
+use super::{Kind, Store, Variable};
 use crate::math::digits::degree;
 use crate::phase_table::{ERROR_BANDS, EnergyBudget, MethodPart, Slab, error_theta};
 use num_complex::Complex64;
@@ -109,12 +108,12 @@ pub const ENERGY: [(&str, &str, Getter<EnergyBudget>); 4] = [
 
 /// Write all records; `dimensions` are those that run over them (leading ones and wavelength),
 /// `shape` their lengths. Absent records and budgets become NaN.
-pub fn write_records(
-    file: &NewFile,
+pub fn write_records<S: Store>(
+    file: &S,
     records: &[Option<Record>],
-    dimensions: &[&NewDataset],
+    dimensions: &[&S::Variable],
     shape: &[u64],
-) -> Result<(), TableError> {
+) -> Result<(), S::Error> {
     for (name, units, words, value) in PLAIN.into_iter().chain(LATER) {
         let values: Vec<f64> = records.iter().map(|r| r.as_ref().map_or(f64::NAN, value)).collect();
         write_field(file, (name, units, words), &values, dimensions, shape)?;
@@ -147,12 +146,12 @@ pub const BY_DIRECTION: &str = "error_estimate_by_direction";
 /// The variable with the share of orders left out by a list.
 pub const LEFT_OUT: &str = "left_out_share";
 
-fn write_errors(
-    file: &NewFile,
+fn write_errors<S: Store>(
+    file: &S,
     records: &[Option<Record>],
-    dimensions: &[&NewDataset],
+    dimensions: &[&S::Variable],
     shape: &[u64],
-) -> Result<(), TableError> {
+) -> Result<(), S::Error> {
     let middles: Vec<f64> = (0..ERROR_BANDS).map(|band| degree(error_theta(band))).collect();
     let theta = scale(file, "error_theta", &middles, "degree")?;
     theta.attribute("long_name", "middle of a band of scattering angles")?;
@@ -166,18 +165,18 @@ fn write_errors(
     write_field(file, (BY_DIRECTION, "1", words), &values, &dimensions, &shape)
 }
 
-fn write_orders(
-    file: &NewFile,
+fn write_orders<S: Store>(
+    file: &S,
     budgets: &[Option<&EnergyBudget>],
-    dimensions: &[&NewDataset],
+    dimensions: &[&S::Variable],
     shape: &[u64],
-) -> Result<(), TableError> {
+) -> Result<(), S::Error> {
     let most = budgets.iter().flatten().map(|e| e.left_by_order.len()).max().unwrap_or(0);
     if most == 0 {
         return Ok(());
     }
-    let order = file.dataset("order", Kind::I32, &[most as u64], None)?;
-    order.write(&(0..most as i32).collect::<Vec<_>>())?;
+    let order = file.variable("order", Kind::I32, &[most as u64])?;
+    order.write_integers(&(0..most as i32).collect::<Vec<_>>())?;
     order.attribute("units", "1")?;
     order.attribute("long_name", "order: number of chords inside the particle")?;
     order.make_scale("order")?;
@@ -199,15 +198,15 @@ fn write_orders(
     write_field(file, ("energy_left_by_order", "1", words), &values, &dimensions, &shape)
 }
 
-fn write_field(
-    file: &NewFile,
+fn write_field<S: Store>(
+    file: &S,
     (name, units, words): (&str, &str, &str),
     values: &[f64],
-    dimensions: &[&NewDataset],
+    dimensions: &[&S::Variable],
     shape: &[u64],
-) -> Result<(), TableError> {
-    let data = file.dataset(name, Kind::F64, shape, None)?;
-    data.write(values)?;
+) -> Result<(), S::Error> {
+    let data = file.variable(name, Kind::F64, shape)?;
+    data.write_numbers(values)?;
     data.attribute("units", units)?;
     data.attribute("long_name", words)?;
     data.attach(dimensions)

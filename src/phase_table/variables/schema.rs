@@ -1,16 +1,12 @@
-//! Names and words of the schema, and the attributes of the file.
+//! Names and words of the schema, and the attributes of the whole.
 
+use super::Store;
 use super::circumstances::write_attributes;
-use crate::hdf5::TableError;
-use crate::hdf5::file::created::NewFile;
-use crate::hdf5::output::WriteOptions;
 use crate::phase_table::{Quantity, TableHeader};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Root attribute `format` of a table.
 pub const FORMAT: &str = "gonio phase table";
-/// Root attribute `format` of a merged sweep.
-pub const SWEEP_FORMAT: &str = "gonio phase table sweep";
 /// Root attribute `format_version`.
 pub const FORMAT_VERSION: i32 = 1;
 
@@ -35,25 +31,37 @@ pub fn values_name(quantity: Quantity) -> &'static str {
     quantity.word()
 }
 
+/// What the root attributes tell beside the header.
+#[derive(Clone, Debug)]
+pub struct Root<'a> {
+    /// [`FORMAT`], or that of a sweep.
+    pub format: &'a str,
+    /// Bits of the mantissa that are kept.
+    pub bit_round: Option<u8>,
+    /// Whether the time of creation is told.
+    pub dated: bool,
+    /// More of them: names and texts.
+    pub attributes: &'a [(String, String)],
+}
+
 /// Root attributes of tables and sweeps.
-pub fn write_root(
-    file: &NewFile,
+pub fn write_root<S: Store>(
+    file: &S,
     header: &TableHeader,
-    format: &str,
-    options: &WriteOptions,
-) -> Result<(), TableError> {
+    root: &Root<'_>,
+) -> Result<(), S::Error> {
     let title = match header.quantity {
         Quantity::PhaseFunction => "Phase function of a single particle",
         Quantity::Mueller => "Scattering (Mueller) matrix of a single particle",
     };
     file.attribute("Conventions", "CF-1.11")?;
     file.attribute("title", title)?;
-    file.attribute("format", format)?;
+    file.attribute("format", root.format)?;
     file.attribute_integer("format_version", FORMAT_VERSION)?;
     file.attribute("program", env!("CARGO_PKG_NAME"))?;
     file.attribute("program_version", env!("CARGO_PKG_VERSION"))?;
     file.attribute("git_hash", env!("GONIO_GIT_HASH"))?;
-    if let Some(date) = creation_date(options.dated) {
+    if let Some(date) = creation_date(root.dated) {
         file.attribute("date_created", &date)?;
     }
     file.attribute("scene", &header.scene_toml)?;
@@ -65,11 +73,11 @@ pub fn write_root(
     file.attribute("shape", &header.shape)?;
     file.attribute("forward_peak", header.forward_peak.word())?;
     file.attribute_integer("rotational_symmetry", i32::from(header.rotational_symmetry))?;
-    if let Some(bits) = options.bit_round {
+    if let Some(bits) = root.bit_round {
         file.attribute_integer("bit_round", i32::from(bits))?;
     }
     write_attributes(file, header)?;
-    options.attributes.iter().try_for_each(|(name, text)| file.attribute(name, text))
+    root.attributes.iter().try_for_each(|(name, text)| file.attribute(name, text))
 }
 
 /// ISO 8601 in UTC: `SOURCE_DATE_EPOCH` where set, else now where `dated`.

@@ -1,0 +1,28 @@
+"""What type checkers are shown: calls as users write them."""
+
+from typing import assert_type
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+import gonio
+
+one = gonio.mie.amplitudes(1.0, 1.33 + 0.01j, theta_deg=30.0)
+assert_type(one, tuple[complex, complex])
+s1, s2 = gonio.mie.amplitudes(np.linspace(1, 2, 5), 1.33, theta_deg=[0.0, 10.0])
+assert_type(s1, NDArray[np.complex128])
+q = gonio.mie.efficiencies([1.0, 2.0], 1.33)
+assert_type(q, gonio.mie.Efficiencies)
+assert_type(gonio.mie.legendre(1.0, 1.5), NDArray[np.float64])
+bow, _ = gonio.debye.amplitudes(100.0, 1.33, theta_deg=np.linspace(130, 150, 5), order=[2, "diffraction"])
+assert_type(bow, NDArray[np.complex128])
+
+drop = gonio.Sphere(radius_um=10, medium="water")
+table = gonio.table(drop, light={"wavelengths_nm": [550]}, table={"theta_deg": [0, 90, 180]})
+assert_type(table, xr.Dataset)
+assert_type(gonio.scatter(drop, wavelength_nm=550, theta_deg=[10, 20]), xr.Dataset)
+assert_type(gonio.lee(radius_mm=[0.01], theta_deg=[138, 140], fineness=0.3), xr.Dataset)
+assert_type(gonio.batch(drop, {"particle.radius_um": [1, 2]}, light={"wavelengths_nm": [550]}), xr.Dataset)
+assert_type(gonio.material("N-BK7").name, str)
+assert_type(gonio.media(), dict[str, str])
