@@ -38,8 +38,13 @@ impl Engine {
         let sphere = shape.is_sphere();
         Ok(match scene.method {
             Method::Auto if sphere => {
+                let series = if scene.medium.radial().is_some() {
+                    "a series of its own"
+                } else {
+                    "Lorenz–Mie"
+                };
                 reasons
-                    .push("rays are skipped: the particle is a sphere, Lorenz–Mie is exact".into());
+                    .push(format!("rays are skipped: the particle is a sphere, {series} is exact"));
                 Engine::LorenzMie
             }
             Method::Mie if !sphere => return Err(PlanError::SeriesNeedsSphere("mie")),
