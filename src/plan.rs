@@ -269,7 +269,7 @@ fn symmetry(shape: &Shape, reasons: &mut Vec<String>) -> Symmetry {
 /// Light of all wavelengths as the particle meets it; refuses surroundings that absorb.
 fn lights(scene: &Scene, engine: Engine, radius: f64) -> Result<Vec<Light>, PlanError> {
     let of = |&wavelength: &f64| -> Result<Light, PlanError> {
-        let light = methods::light(scene, engine, radius, wavelength)?;
+        let light = engine.light(scene, radius, wavelength)?;
         let largest = |sizes: &SizeDistribution| sizes.limits(1e-3, TAU / light.wavelength).1;
         let radius = scene.size_distribution.as_ref().map_or(radius, largest);
         check_outside(&scene.medium, wavelength, radius)?;

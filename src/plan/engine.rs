@@ -3,6 +3,7 @@
 use super::acceptance::PlanError;
 use super::t_matrix;
 use crate::farfield::assignment::Thresholds;
+use crate::medium::{Light, MediumError};
 use crate::scene::{Diffraction, Interference, Method, Orientation, Scene};
 use crate::shape::Shape;
 
@@ -25,6 +26,23 @@ impl Engine {
     /// Whether waves are computed exactly, all orders at once or one by one, without rays.
     pub fn is_exact(self) -> bool {
         matches!(self, Engine::LorenzMie | Engine::Debye | Engine::TMatrix)
+    }
+
+    /// Light of a wavelength in vacuum as a particle of a radius (metres) meets it: of what varies along the
+    /// radius, which only its series knows of, with the index at the surface.
+    ///
+    /// # Errors
+    /// A wavelength outside the data, or what varies where one index is needed.
+    pub(super) fn light(
+        self,
+        scene: &Scene,
+        radius: f64,
+        wavelength: f64,
+    ) -> Result<Light, MediumError> {
+        match self {
+            Engine::LorenzMie => scene.medium.light_at_surface(wavelength, radius),
+            _ => scene.medium.light(wavelength),
+        }
     }
 
     /// That of a scene of one kind of particles; a sentence says why.

@@ -115,7 +115,7 @@ impl Plan {
 
     /// Light of a wavelength in vacuum as the particle meets it.
     pub(crate) fn light(&self, scene: &Scene, wavelength: f64) -> Result<Light, MediumError> {
-        light(scene, self.engine, self.radius, wavelength)
+        self.engine.light(scene, self.radius, wavelength)
     }
 
     /// The share of the light of each order at a range's first wavelength.
@@ -129,20 +129,6 @@ impl Plan {
             part.share_of_light = part.order.and_then(|order| light.get(order as usize)).copied();
         }
         Ok(())
-    }
-}
-
-/// Light of a wavelength in vacuum as a particle of a radius (metres) meets it: of what varies along the
-/// radius, which only its series knows of, with the index at the surface.
-pub(super) fn light(
-    scene: &Scene,
-    engine: Engine,
-    radius: f64,
-    wavelength: f64,
-) -> Result<Light, MediumError> {
-    match engine {
-        Engine::LorenzMie => scene.medium.light_at_surface(wavelength, radius),
-        _ => scene.medium.light(wavelength),
     }
 }
 

@@ -1,6 +1,5 @@
 //! How the flags of scene keys are read: words of closed sets, media, indices.
 
-use super::file::Films;
 use super::{Choice, Named};
 use crate::medium::{FilmSpec, MediumSpec, parse_index};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -31,6 +30,6 @@ pub(super) fn outside(text: &str) -> Result<MediumSpec, String> {
 }
 
 /// `[{ medium = "ethanol", thickness_nm = 100 }]`
-pub(super) fn coating(text: &str) -> Result<Films, String> {
+pub(super) fn coating(text: &str) -> Result<Vec<FilmSpec>, String> {
     FilmSpec::parse_list(text).map_err(|error| error.to_string())
 }

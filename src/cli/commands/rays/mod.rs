@@ -101,7 +101,11 @@ pub fn run(args: RaysArgs) -> Result<()> {
     } else {
         for bow in &rainbows {
             let degrees = bow.deviation.to_degrees();
-            println!("rainbow at {degrees:.4}° ({} branch), impact {:.6}", branch(bow), bow.impact);
+            println!(
+                "rainbow at {degrees:.4}° ({} branch), impact {:.6}",
+                bow.branch(),
+                bow.impact
+            );
         }
         println!("# impact  deviation_deg  optical_path  focal_lines");
         for ray in &rays {
@@ -165,10 +169,6 @@ fn shape(args: &RaysArgs) -> Result<Shape> {
     })
 }
 
-fn branch(bow: &Rainbow) -> &'static str {
-    if bow.impact >= 0.0 { "upper" } else { "lower" }
-}
-
 fn to_json(rays: &[PlaneRay], rainbows: &[Rainbow]) -> serde_json::Value {
     let ray = |r: &PlaneRay| {
         json!({
@@ -182,7 +182,7 @@ fn to_json(rays: &[PlaneRay], rainbows: &[Rainbow]) -> serde_json::Value {
         json!({
             "impact": b.impact,
             "deviation_deg": b.deviation.to_degrees(),
-            "branch": branch(b),
+            "branch": b.branch(),
         })
     };
     json!({

@@ -1,6 +1,5 @@
 //! `gonio rays` for spheres whose index varies along the radius.
 
-use super::branch;
 use gonio::medium::radial::Body;
 use gonio::render::DrawnRay;
 use gonio::trace::{Chord, RadialRays, Rainbow};
@@ -80,7 +79,7 @@ impl Traced {
             json!({
                 "impact": bow.impact,
                 "deviation_deg": bow.deviation.to_degrees(),
-                "branch": branch(bow),
+                "branch": bow.branch(),
             })
         };
         json!({
@@ -93,7 +92,11 @@ impl Traced {
     pub fn print(&self) {
         for bow in &self.rainbows {
             let degrees = bow.deviation.to_degrees();
-            println!("rainbow at {degrees:.4}° ({} branch), impact {:.6}", branch(bow), bow.impact);
+            println!(
+                "rainbow at {degrees:.4}° ({} branch), impact {:.6}",
+                bow.branch(),
+                bow.impact
+            );
         }
         println!("# impact  deviation_deg  optical_path  fate");
         for ray in &self.rays {
