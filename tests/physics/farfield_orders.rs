@@ -77,6 +77,47 @@ fn one_order_against_its_debye_term() {
     }
 }
 
+/// Order 1 up to its last ray, which leaves where total reflection would begin, and in the penumbra beyond: light that
+/// enters and leaves by tunnelling at the rim.
+#[test]
+fn order_1_about_its_last_ray() {
+    for (x, index, bound) in [
+        (300.0, 1.333, 0.005),
+        (700.0, 1.333, 0.004),
+        (5000.0, 1.333, 0.004),
+        (2000.0, 1.1, 0.007),
+        (1000.0, 1.7, 0.004),
+    ] {
+        let m = Complex64::new(index, 0.0);
+        let last_ray = 2.0 * (1.0 / index).acos().to_degrees();
+        let width = 60.0 / f64::cbrt(x);
+        for (from, to) in [(-2.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 2.0)] {
+            let theta = angles(last_ray + from * width, last_ray + to * width, 0.05);
+            let exact = DebyeSeries::new(x, m).unwrap().amplitudes(Term::Order(1), &theta);
+            let [s1, s2] = errors(&rays(x, m, &[1], false, &theta), &exact);
+            let [low, high] = [from, to].map(|t| last_ray + t * width);
+            let percent = [100.0 * s1, 100.0 * s2];
+            println!("x = {x}, n = {index}, {low:.1}–{high:.1}°: S1, S2 off by {percent:.2?} %");
+            assert!(s1 <= bound && s2 <= 1.5 * bound, "x = {x}, {low}–{high}°: S1 {s1}, S2 {s2}");
+        }
+    }
+}
+
+/// Where the integral over impacts takes over from single rays: what one leaves to the other is all that there is.
+#[test]
+fn order_1_where_the_integral_takes_over() {
+    for (x, bound) in [(200.0, 0.03), (700.0, 0.012), (5000.0, 0.006)] {
+        let m = Complex64::new(1.333, 0.0);
+        for from in (0..80).step_by(10) {
+            let theta = angles(f64::from(from), f64::from(from + 10), 0.05);
+            let exact = DebyeSeries::new(x, m).unwrap().amplitudes(Term::Order(1), &theta);
+            let [s1, s2] = errors(&rays(x, m, &[1], false, &theta), &exact);
+            println!("x = {x}, from {from}°: S1 {:.2} %, S2 {:.2} %", 100.0 * s1, 100.0 * s2);
+            assert!(s1 <= bound && s2 <= bound, "x = {x}, from {from}°: S1 {s1}, S2 {s2}");
+        }
+    }
+}
+
 /// About the axis, where rays of all azimuths meet: the glory of single orders, also the strong ones
 /// whose bow lies there (11 and 24 for water), the rays that creep along the surface (order 2), and
 /// rays that cross the axis.

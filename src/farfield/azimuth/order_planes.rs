@@ -327,7 +327,9 @@ fn rim_layout(
 ) -> Option<NearGrazingLayout> {
     let rotational = tracer.shape().rotational_symmetry();
     let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rotational)?;
-    let round = rotational || caustic_disorder < by.nearly_round;
+    // The wave of order 1 beyond the rim is that of its last ray alone, without a bow before it: what little is odd
+    // in the grazing angle would decide there.
+    let round = rotational || order > 1 && caustic_disorder < by.nearly_round;
     Some(NearGrazingLayout::new(marks, rotational, round))
 }
 

@@ -153,13 +153,15 @@ impl DeflectionCurve<'_> {
     fn plain_knot(&self, node: &Node, layout: &CutLayout) -> Knot {
         let (_, growing) = self.plane().frame(node.angle);
         let transfer = self.plane().transfer(&node.exit, node.angle);
-        let rim = layout.rim.as_ref().map(|rim| rim.weight(node.alpha.sin()));
-        let edge =
-            layout.edge.map(|edge| reflected_share(&edge, node.angle, layout.size_parameter));
-        let share = edge.unwrap_or_else(|| (1.0 - rim.unwrap_or(0.0)).into());
+        let x = layout.size_parameter;
+        let (index, order) = (self.plane().tracer.index().re, self.plane().order);
+        let rim = layout.rim.as_ref();
+        let left = rim.map(|rim| rim.left_to_ray(node.alpha.sin(), index, order, x));
+        let edge = layout.edge.map(|edge| reflected_share(&edge, node.angle, x));
+        let share = edge.or(left).unwrap_or_else(|| 1.0.into());
         // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
         // that focus at infinity, as about the axis for indices of 2 and 4.
-        let spread = self.bounded_spread(node, layout).max(4.0 / layout.size_parameter.powi(2));
+        let spread = self.bounded_spread(node, layout).max(4.0 / x.powi(2));
         let size = share / spread.sqrt();
         let elements = [transfer.s1, transfer.s2, transfer.s3, transfer.s4];
         let knot = SingleKnot {

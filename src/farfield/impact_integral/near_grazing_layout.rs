@@ -5,6 +5,7 @@ use super::near_grazing_taper::{airy_angle, deviation_slope};
 use super::rays::{RAYS, Rays};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
+use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
 /// Where the integral takes over, and the knots of its wave; common to all planes of an order.
@@ -31,8 +32,8 @@ pub struct NearGrazingLayout {
 const KNOTS_PER_PERIOD: f64 = 4.0;
 
 impl NearGrazingLayout {
-    /// A layout without knots yet. Where nothing depends on azimuth, or next to nothing on nearly round bodies,
-    /// path and angles are analytic in the launch point to the rim and beyond; else only nearly so, and low
+    /// A layout without knots yet. Where nothing depends on azimuth, or next to nothing on nearly round bodies
+    /// (`round`), path and angles are analytic in the launch point to the rim and beyond; else only nearly so, and low
     /// degrees must do.
     pub fn new([start, full, bow]: [f64; 3], rotational: bool, round: bool) -> Self {
         let degree = if round { RAYS - 1 } else { 5 };
@@ -65,7 +66,23 @@ impl NearGrazingLayout {
 
     /// Weight of the integral for a launch point `sin α`.
     pub fn weight(&self, sin: f64) -> f64 {
-        Window { start: self.start, full: self.full }.weight(sin)
+        self.window().weight(sin)
+    }
+
+    fn window(&self) -> Window {
+        Window { start: self.start, full: self.full }
+    }
+
+    /// What the integral leaves to the wave of a single ray: the complement of its weight, with the next term of
+    /// stationary phase, since the weight changes over few Fresnel zones. The phase's derivatives by impact,
+    /// `x (L(β) - βϑ)`, are those of a sphere.
+    pub(crate) fn left_to_ray(&self, sin: f64, index: f64, order: u32, x: f64) -> Complex64 {
+        let [weight, slope, bend] = self.window().with_derivatives(sin);
+        if weight == 0.0 || weight == 1.0 {
+            return (1.0 - weight).into();
+        }
+        let (second, third) = deviation_slope(index, order, sin);
+        Complex64::new(1.0 - weight, (bend - third / second * slope) / (2.0 * x * second))
     }
 
     /// Spread knots that serve all curves of an order: from the ray at `start` past the bow, as far as
@@ -92,11 +109,16 @@ impl NearGrazingLayout {
         let least = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MAX, f64::min);
         let most = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MIN, f64::max);
         let order = curves.first()?.plane().order;
-        let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
-        // beyond the last ray its penumbra dies away with x^{1/3}
+        // beyond the last ray its penumbra dies away with x^{1/3}: where rays turned back at a bow, on the
+        // side they came from
         let penumbra = (PENUMBRA * x.cbrt().recip()).min(FARTHEST_PENUMBRA);
         let start = least(|m| m.start);
-        let begin = start.min(least(|m| m.last) - penumbra);
+        let (begin, dark) = if order == 1 {
+            (start, penumbra)
+        } else {
+            let dark = (DARK_ZETA * airy_angle(index, order, x)).min(LONGEST_DARK);
+            (start.min(least(|m| m.last) - penumbra), dark)
+        };
         let bow_at = most(|m| m.farthest);
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
         let spare = 0.1 * caustic_disorder + zone + x.powf(-2.0 / 3.0);

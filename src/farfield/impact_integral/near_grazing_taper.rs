@@ -1,11 +1,20 @@
 //! Where on a sphere the integral over rays near the rim takes over from single rays: inside the bow's ray by
-//! some widths of its Airy function, over some Fresnel zones, and clear of the axis.
+//! some widths of its Airy function, over some Fresnel zones, and clear of the axis. Order 1 has no bow: its
+//! last ray stands in for that of a bow, by the width of its penumbra.
 
 use crate::farfield::assignment::Thresholds;
 use std::f64::consts::PI;
 
-/// Widths of the Airy function between the bow's ray and the start of the taper.
+/// Widths of the Airy function between the bow's ray and the start of the taper; of order 1 so many before its last
+/// ray.
 const AIRY_WIDTHS: f64 = 5.0;
+const AIRY_WIDTHS_FIRST: f64 = 3.0;
+/// Least start of the taper, per its end, and the fewest Fresnel zones in it. The rays of order 1 spread slowly: their
+/// zones are wide, and below x = 130 single rays are nearer the truth at the middle than a short taper.
+const DEEPEST_START: f64 = 0.5;
+const DEEPEST_START_FIRST: f64 = 0.1;
+const FEWEST_ZONES: f64 = 5.0;
+const FEWEST_ZONES_FIRST: f64 = 10.0;
 /// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
 /// served is ten times as strong as the others.
 const FRESNEL_ZONES: f64 = 20.0;
@@ -15,6 +24,11 @@ fn bow(index: f64, order: u32) -> Option<f64> {
     let p = f64::from(order);
     let square = 1.0 - (index * index - 1.0) / (p * p - 1.0);
     (square > 0.0 && square < 1.0).then(|| square.sqrt())
+}
+
+/// Impact of the ray that the integral is about: that of the bow, or of order 1 one within the last wave zone.
+fn central_impact(index: f64, order: u32, size_parameter: f64) -> Option<f64> {
+    if order == 1 { Some(1.0 - size_parameter.powf(-2.0 / 3.0)) } else { bow(index, order) }
 }
 
 /// Slope and third derivative of a sphere's deviation by impact.
@@ -44,14 +58,18 @@ pub fn taper(
 ) -> Option<[f64; 3]> {
     const DEEPEST: f64 = 0.3;
     const FEWEST_WIDTHS: f64 = 2.0;
-    const FEWEST_ZONES: f64 = 5.0;
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
     let serves = by.near_grazing_serves(index, order, rotational, caustic_disorder);
-    let b = bow(index, order).filter(|_| serves)?;
+    let b = central_impact(index, order, size_parameter).filter(|b| serves && *b > 0.0)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
-    let mut full = b - AIRY_WIDTHS * airy - caustic_disorder;
+    let (widths, deepest_start, fewest_zones) = if order == 1 {
+        (AIRY_WIDTHS_FIRST, DEEPEST_START_FIRST, FEWEST_ZONES_FIRST)
+    } else {
+        (AIRY_WIDTHS, DEEPEST_START, FEWEST_ZONES)
+    };
+    let mut full = b - widths * airy - caustic_disorder;
     if rotational {
         full = below_axis(index, order, full, AXIS_GAPS * axis_gap);
     }
@@ -60,12 +78,12 @@ pub fn taper(
     }
     let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
     let zones = if by.is_high(order) { FRESNEL_ZONES_HIGH } else { FRESNEL_ZONES };
-    let mut start = (full - zones * zone(full)).max(0.5 * full);
+    let mut start = (full - zones * zone(full)).max(deepest_start * full);
     if !rotational {
         start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
-        full = full.max(start + FEWEST_ZONES * zone(full));
+        full = full.max(start + fewest_zones * zone(full));
     }
-    let room = full - start > 0.99 * FEWEST_ZONES * zone(full) || !rotational;
+    let room = full - start > 0.99 * fewest_zones * zone(full) || !rotational;
     let serves = room && full < b - FEWEST_WIDTHS * airy;
     serves.then_some([start, full, b])
 }
