@@ -326,6 +326,21 @@ mod tests {
         }
     }
 
+    /// Luneburg's lens without interference and reflection: `P = β dβ/(π sin θ dθ) = cos θ/π` up to 90°.
+    #[test]
+    fn the_lens_scatters_like_a_cosine() {
+        const H: f64 = 1e-4;
+        let lens = body(Profile::Luneburg { c: 2.0 });
+        let rays = RadialRays::new(&lens);
+        let angle = |b: f64| folded(rays.deflection(b, 1).unwrap());
+        for b in [0.05, 0.3, 0.6, 0.9, 0.99] {
+            let slope = (angle(b + H) - angle(b - H)) / (2.0 * H);
+            let found = b / (PI * angle(b).sin() * slope);
+            assert!((found * PI / angle(b).cos() - 1.0).abs() < 1e-4, "{b}: {found}");
+        }
+        assert!((0..100).all(|i| angle(0.01 * f64::from(i)) < 0.5 * PI));
+    }
+
     /// Inverse profile: every ray that enters ends at the centre; none turns.
     #[test]
     fn spirals_end_at_the_centre() {

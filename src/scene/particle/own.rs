@@ -45,7 +45,7 @@ impl Scene {
     pub fn with_own_medium(mut self, medium: Medium, density: Option<Density>) -> Scene {
         let density_key = density.as_ref().map(|density| ("density_kg_m3", density.kg_m3.into()));
         let keys = [Some(("medium", medium.name().into())), density_key].into_iter().flatten();
-        self.note_particle(&["temperature_c", "density_kg_m3"], keys);
+        self.note_particle(&["temperature_c", "density_kg_m3", "outside", "coating"], keys);
         (self.medium, self.density) = (medium, density);
         self
     }

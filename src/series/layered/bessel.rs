@@ -193,9 +193,9 @@ pub(super) fn complex_functions(
     let turning = if z.im <= FLAT { z.norm().floor() } else { 0.0 };
     let inverse = 1.0 / z;
     let (mut rows, mut crossings) = (Vec::with_capacity(orders), Vec::new());
-    for n in 1..=orders {
+    for (n, u) in ratio.iter().enumerate().take(orders + 1).skip(1) {
         let factor = inverse * (2 * n - 1) as f64;
-        let next = if n as f64 <= turning { factor * psi[1] - psi[0] } else { psi[1] * ratio[n] };
+        let next = if n as f64 <= turning { factor * psi[1] - psi[0] } else { psi[1] * u };
         let next_chi = factor * chi[1] - chi[0];
         (psi, chi) = ([psi[1], next], [chi[1], next_chi]);
         let down = inverse * n as f64;
@@ -224,11 +224,11 @@ mod tests {
         let z = [0.02, 0.9, 7.3, 60.0, 131.0, 500.25, 3000.0, 20.0];
         let mut functions = RealFunctions::default();
         functions.fill(&z, 3100);
-        for lane in 0..LANES {
+        for (lane, z) in z.iter().enumerate() {
             for n in 0..3100 {
                 let f = functions.at(lane, n);
                 let w = f.regular * f.second_slope - f.regular_slope * f.second;
-                assert!((w + 1.0).abs() < 1e-10, "{} {n}: {w}", z[lane]);
+                assert!((w + 1.0).abs() < 1e-10, "{z} {n}: {w}");
             }
         }
         assert!(functions.crossings[0].len() > 20 && functions.crossings[6].is_empty());

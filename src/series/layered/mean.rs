@@ -192,7 +192,7 @@ impl RadialEnsemble<'_> {
                 some.par_iter().map(|node| self.one(*node, set)).collect::<Result<_, _>>()?;
             for (k, (sum, node)) in found.iter().zip(some).enumerate() {
                 fine.add(sum, node.2);
-                if (chunk * AT_ONCE + k) % 2 == 0 {
+                if (chunk * AT_ONCE + k).is_multiple_of(2) {
                     coarse.add(sum, 2.0 * node.2);
                 }
             }

@@ -181,6 +181,11 @@ fn seen(args: &ScatterArgs, size: &Size, medium: &Medium) -> Result<Seen> {
             (USUAL_RADIUS, TAU * USUAL_RADIUS / size.parameter)
         }
         _ => {
+            if args.made_of.coating.is_some() {
+                let message = "--coating: films have a thickness in the particle's size: give --radius-um, or \
+                               --wavelength-nm";
+                return Err(usage(message));
+            }
             let plain = args.made_of.medium.is_none() && args.made_of.outside.is_none();
             let name = if plain { "water".into() } else { medium.name() };
             return Err(usage(format!(
