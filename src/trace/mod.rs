@@ -22,6 +22,7 @@ mod exit;
 mod focal_lines;
 mod meeting;
 mod radial;
+mod radial_path;
 mod ray;
 mod surface_event;
 mod symmetry_plane;
