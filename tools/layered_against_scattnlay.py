@@ -20,11 +20,11 @@ GONIO = sys.argv[1] if len(sys.argv) > 1 else "target/release/gonio"
 THETA = np.linspace(0, 180, 361)
 
 
-def gonio(x, medium, tolerance="0.01", threads="1"):
-    """Best of ten: seconds, S1, S2, q_ext."""
+def gonio(x, medium, tolerance="0.01", threads="1", repeat=10):
+    """Best of some: seconds, S1, S2, q_ext."""
     best = None
-    for _ in range(10):
-        command = [GONIO, "scatter", "--method", "mie", "--size-parameter", str(x), "--theta",
+    for _ in range(repeat):
+        command = [GONIO, "scatter", "--method", "mie", "--size-parameter", repr(float(x)), "--theta",
                    "0:180:0.5", "--medium", medium, "--json", "--threads", threads,
                    "--tolerance", tolerance]
         answer = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
@@ -65,3 +65,17 @@ for count in (500, 2000, 8000):
     other, t1, t2, p = nlay(x * edges, np.sqrt(2 - (edges - 0.5 / count) ** 2) + 0j)
     print(f"  scattnlay, {count} layers: {other * 1e3:.0f} ms, error {l2((t1, t2), (s1, s2)):.1e}, "
           f"ratio {other / fast:.0f}")
+
+# Forty random spheres of one to four layers, half of the layers absorbing: amplitudes and extinction.
+rng, worst = np.random.default_rng(5), 0.0
+for _ in range(40):
+    x, count = 10 ** rng.uniform(-0.5, 2), rng.integers(1, 5)
+    radii = np.append(np.sort(rng.uniform(0.1, 0.98, count - 1)), 1.0)
+    n = rng.uniform(0.8, 2.2, count)
+    k = np.where(rng.random(count) < 0.5, 0, 10 ** rng.uniform(-4, 0, count))
+    layers = ", ".join(f"{{ radius_fraction = {r:.17g}, medium = {{ index = [{a:.17g}, {b:.17g}] }} }}"
+                       for r, a, b in zip(radii, n, k))
+    _, s1, s2, q = gonio(x, f"{{ layers = [ {layers} ] }}", repeat=1)
+    _, t1, t2, p = nlay(x * radii, n + 1j * k)
+    worst = max(worst, l2((s1, s2), (t1, t2)), abs(q / p - 1))
+print(f"40 random spheres of 1 to 4 layers, x = 0.3 to 100: largest difference {worst:.1e}")
