@@ -224,7 +224,8 @@ fn converged_digits_of_profiles() {
 /// A public program with 6000 layers: 1e-3 of amplitudes up to 4900.
 #[test]
 fn profiles_as_a_public_program() {
-    let profiles: [(&str, fn(f64) -> f64); 4] = [
+    type Named = (&'static str, fn(f64) -> f64);
+    let profiles: [Named; 4] = [
         ("gaussian_a1.4", gaussian),
         ("luneburg_C2", luneburg_2),
         ("luneburg_C3", luneburg_3),
