@@ -21,7 +21,10 @@ mod methods;
 mod orders;
 mod t_matrix;
 
-pub use acceptance::{DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, PlanError, check_rays, phase_shift};
+pub use acceptance::{
+    DOUBTFUL_PHASE_SHIFT, LARGEST_K_OVER_N, OUTSIDE_LOSS, PlanError, check_outside, check_rays,
+    phase_shift,
+};
 pub use cost::{Cost, available_memory};
 pub use engine::Engine;
 pub use methods::PlannedRange;
@@ -30,9 +33,10 @@ pub use t_matrix::amplitude_tolerance;
 
 use crate::farfield::assignment::Thresholds;
 use crate::math::digits::to_digits;
+use crate::medium::Light;
 use crate::scene::{Orders, Orientation, Particle, Scene};
 use crate::shape::{Shape, ShapeError};
-use num_complex::Complex64;
+use crate::size_distribution::SizeDistribution;
 use std::f64::consts::{PI, TAU};
 
 /// How the scattering depends on azimuth.
@@ -84,7 +88,7 @@ impl Plan {
     ///
     /// # Errors
     /// A shape outside its model, a wavelength outside the medium's data, an exact series asked for
-    /// a particle that is no sphere, or absorption beyond the ray picture.
+    /// a particle that is no sphere, surroundings that absorb, or absorption beyond the ray picture.
     pub fn new(scene: &Scene) -> Result<Self, PlanError> {
         Self::by(scene, Thresholds::MEASURED)
     }
@@ -129,15 +133,11 @@ impl Plan {
         } else {
             symmetry(&shape, &mut reasons)
         };
-        let indices = scene
-            .wavelengths
-            .iter()
-            .map(|&w| scene.medium.index(w))
-            .collect::<Result<Vec<_>, _>>()?;
+        let lights = lights(scene, engine, radius)?;
         if !engine.is_exact() {
             let smallest =
                 scene.size_distribution.as_ref().map_or(radius, |sizes| sizes.bounds().0);
-            check_particle(scene, smallest, &indices, &thresholds, &mut reasons)?;
+            check_particle(scene, smallest, &lights, &thresholds, &mut reasons)?;
         }
         let share = scene.size_distribution.as_ref().map_or(1.0, |sizes| sizes.share_inside());
         if share < ALL_INSIDE {
@@ -147,10 +147,11 @@ impl Plan {
                 100.0 * (1.0 - share)
             ));
         }
-        if indices.iter().all(|i| i.im == 0.0) {
+        say_medium(scene, &mut reasons);
+        if scene.medium.radial().is_none() && lights.iter().all(|light| light.index.im == 0.0) {
             reasons.push("absorption is skipped: k = 0 at every wavelength".into());
         }
-        let index = indices.first().map_or(1.33, |i| i.re);
+        let index = lights.first().map_or(1.33, |light| light.index.re);
         let (orders, forward_diffraction) =
             orders(scene, &shape, engine, index, &thresholds, &mut reasons);
         let complete = scene.orders == Orders::Auto;
@@ -266,17 +267,43 @@ fn symmetry(shape: &Shape, reasons: &mut Vec<String>) -> Symmetry {
     Symmetry::Mirror
 }
 
+/// Light of all wavelengths as the particle meets it; refuses surroundings that absorb.
+fn lights(scene: &Scene, engine: Engine, radius: f64) -> Result<Vec<Light>, PlanError> {
+    let of = |&wavelength: &f64| -> Result<Light, PlanError> {
+        let light = engine.light(scene, radius, wavelength)?;
+        let largest = |sizes: &SizeDistribution| sizes.limits(1e-3, TAU / light.wavelength).1;
+        let radius = scene.size_distribution.as_ref().map_or(radius, largest);
+        check_outside(&scene.medium, wavelength, radius)?;
+        Ok(light)
+    };
+    scene.wavelengths.iter().map(of).collect()
+}
+
+/// What varies inside, and what is around, where that is not vacuum.
+fn say_medium(scene: &Scene, reasons: &mut Vec<String>) {
+    if let Some(radial) = scene.medium.radial() {
+        let name = radial.name();
+        reasons.push(format!("exact series of a sphere that varies along its radius: {name}"));
+    }
+    if let Some(outside) = scene.medium.surroundings() {
+        reasons.push(format!(
+            "the particle is in {}: indices are relative to it, size parameters are of the wavelength in it",
+            outside.name()
+        ));
+    }
+}
+
 /// Refuse particles that rays cannot serve at one of the wavelengths; say where they hardly can.
 fn check_particle(
     scene: &Scene,
     radius: f64,
-    indices: &[Complex64],
+    lights: &[Light],
     by: &Thresholds,
     reasons: &mut Vec<String>,
 ) -> Result<(), PlanError> {
     let mut least = f64::INFINITY;
-    for (&index, &wavelength) in indices.iter().zip(&scene.wavelengths) {
-        let size_parameter = TAU * radius / wavelength;
+    for (light, &wavelength) in lights.iter().zip(&scene.wavelengths) {
+        let (index, size_parameter) = (light.index, TAU * radius / light.wavelength);
         let place = format!(" at {} nm", to_digits(wavelength * 1e9, 10));
         acceptance::accept(by, index, size_parameter, &place)?;
         least = least.min(phase_shift(index, size_parameter));

@@ -48,6 +48,7 @@ use crate::farfield::assignment::{Assignment, Method};
 use crate::farfield::patches::{gaussian_filter, sheets};
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{ErrorEstimate, FarField, FarFieldSettings};
+use crate::medium::Light;
 use crate::phase_table::{Axes, ForwardPeak, InvalidTable, PhaseTable, Slab, TableHeader};
 use crate::plan::{Engine, Plan};
 use crate::population;
@@ -170,15 +171,17 @@ fn computed_slab(
     if let Some(steps) = steps {
         return drops::slab(scene, plan, steps, wavelength);
     }
-    let index = scene.medium.index(wavelength)?;
+    // Everything is computed of the wavelength and the index relative to the surroundings.
+    let light = plan.light(scene, wavelength)?;
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
-        let slab = series::slab(scene, plan, wavelength)?;
-        return Ok(Slab { methods: plan.series_parts(), ..slab });
+        let slab = series::slab(scene, plan, wavelength, light)?;
+        return Ok(Slab { wavelength, methods: plan.series_parts(scene), ..slab });
     }
     if plan.engine == Engine::TMatrix {
-        return Ok(t_matrix::slab(scene, plan, wavelength, index)?);
+        return Ok(Slab { wavelength, ..t_matrix::slab(scene, plan, light)? });
     }
-    let size_parameter = TAU * plan.radius / wavelength;
+    let Light { wavelength: seen, index } = light;
+    let size_parameter = TAU * plan.radius / seen;
     let budget = energy(plan, wavelength, index, size_parameter)?;
     let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
     let far_field = far_field(plan, index, size_parameter, in_table);

@@ -6,9 +6,10 @@ use super::error::{
     MediumError, PLAUSIBLE_INDEX, invalid, is_plausible, nanometres, without_trace,
 };
 use super::own::OwnMedium;
+use super::radial::{Immersed, Radial};
 use super::solution::{Host, Solution};
 use super::water::daimon::Daimon;
-use super::water::microwave::{MICROWAVES, MicrowaveWater};
+use super::water::microwave::MicrowaveWater;
 use super::water::{self, sea};
 use num_complex::Complex64;
 use std::sync::Arc;
@@ -53,10 +54,22 @@ pub enum Medium {
     Solution(Arc<Solution<Medium>>),
     /// A function of the wavelength.
     Own(OwnMedium),
+    /// It varies along the radius of a sphere, and has no one index.
+    Radial(Arc<Radial<Medium>>),
+    /// Inside another medium: wavelengths are those in it, indices relative to it.
+    Immersed(Arc<Immersed<Medium>>),
 }
 
+/// What is said where one index is needed of what varies.
+const ONE_INDEX: &str = "a medium with one index; this one varies along the radius of a sphere, and serves \
+                         where the exact series does (gonio scatter, scenes of spheres, gonio rays)";
+
 impl Medium {
-    /// Complex index `n + ik` at a wavelength in vacuum (metres).
+    /// Complex index `n + ik` at a wavelength in vacuum (metres); of what is immersed, the relative index
+    /// at a wavelength in the surroundings ([`Self::light`]).
+    ///
+    /// # Errors
+    /// A wavelength outside the data, or a medium that varies along the radius.
     pub fn index(&self, wavelength: f64) -> Result<Complex64, MediumError> {
         let index = self.index_of_data(wavelength)?;
         if is_plausible(index) {
@@ -72,10 +85,7 @@ impl Medium {
     fn index_of_data(&self, wavelength: f64) -> Result<Complex64, MediumError> {
         match self {
             Medium::Constant(index) => Ok(*index),
-            Medium::Water { temperature } if wavelength >= MICROWAVES => {
-                MicrowaveWater::Liebe1991.index(wavelength, *temperature)
-            }
-            Medium::Water { temperature } => water::index(wavelength, *temperature),
+            Medium::Water { temperature } => water::liquid(wavelength, *temperature),
             Medium::MicrowaveWater { model, temperature } => model.index(wavelength, *temperature),
             Medium::WaterOfDensity { temperature, density } => {
                 water::at_density(wavelength, *temperature, *density)
@@ -87,6 +97,8 @@ impl Medium {
             Medium::Material(material) => material.index(wavelength),
             Medium::Solution(solution) => solution.index(wavelength),
             Medium::Own(own) => own.index(wavelength),
+            Medium::Radial(radial) => Err(invalid("medium", radial.name(), ONE_INDEX)),
+            Medium::Immersed(immersed) => immersed.index(wavelength),
         }
     }
 
@@ -101,6 +113,8 @@ impl Medium {
             Medium::Material(material) => material.range,
             Medium::Solution(solution) => solution.range(),
             Medium::Own(own) => own.range(),
+            Medium::Radial(radial) => radial.valid_range(),
+            Medium::Immersed(immersed) => immersed.range(),
         }
     }
 
@@ -123,6 +137,8 @@ impl Medium {
             Medium::Material(material) => material.name.clone(),
             Medium::Solution(solution) => solution.name(),
             Medium::Own(own) => own.name().into(),
+            Medium::Radial(radial) => radial.name(),
+            Medium::Immersed(immersed) => immersed.name(),
         }
     }
 
@@ -146,6 +162,8 @@ impl Medium {
             Medium::Material(material) => material.source.clone(),
             Medium::Solution(solution) => solution.source(),
             Medium::Own(_) => "a function of its user".into(),
+            Medium::Radial(radial) => radial.source(),
+            Medium::Immersed(immersed) => immersed.source(),
         }
     }
 
@@ -166,6 +184,8 @@ impl Medium {
                 material.notes.iter().map(|note| format!("{}: {note}", material.name)).collect()
             }
             Medium::Solution(solution) => solution.notes(),
+            Medium::Radial(radial) => radial.notes(),
+            Medium::Immersed(immersed) => immersed.notes(),
             _ => Vec::new(),
         }
     }

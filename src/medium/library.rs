@@ -39,7 +39,7 @@ const WATERS: [&str; 5] =
 const MODELS: [&str; 2] = ["rose-bengal-model", "fuchsine-model"];
 
 /// Other names of the media that are not in the catalogue.
-const ALIASES: [(&str, &str); 9] = [
+const ALIASES: [(&str, &str); 16] = [
     ("h2o", "water"),
     ("seawater", "sea-water"),
     ("salt-water", "sea-water"),
@@ -49,6 +49,13 @@ const ALIASES: [(&str, &str); 9] = [
     ("rosebengal", "rose-bengal-model"),
     ("fuchsine", "fuchsine-model"),
     ("fuchsin", "fuchsine-model"),
+    ("au", "gold"),
+    ("ag", "silver"),
+    ("cu", "copper"),
+    ("al", "aluminium"),
+    ("aluminum", "aluminium"),
+    ("soot", "soot-acetylene"),
+    ("alcohol", "ethanol"),
 ];
 
 /// The name that the library knows a medium by, or an error with the nearest one.

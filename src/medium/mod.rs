@@ -6,7 +6,7 @@
 //! air, which this program takes as index 1.
 //!
 //! `spec` holds what is written down, `read` the readers of files, `data` rows made curves, `dispersion`
-//! formulas, `shipped` what is compiled in, `water` the waters, [`kramers_kronig`] the transform; `kinds` is the
+//! formulas, `shipped` what is compiled in, `water` the waters, [`radial`] what varies along the radius, [`kramers_kronig`] the transform; `kinds` is the
 //! closed set of media, `library` the media by name.
 //!
 //! ```
@@ -32,12 +32,14 @@ mod kinds;
 pub mod kramers_kronig;
 mod library;
 mod own;
+pub mod radial;
 mod read;
 mod shipped;
 mod shown;
 mod solution;
 mod spec;
 mod spelling;
+mod surroundings;
 mod water;
 
 pub use band_model::BandModel;
@@ -56,7 +58,9 @@ pub use read::csv_table::read as read_csv;
 pub use shown::{even_sample_nm, shown_wavelengths_nm};
 pub use solution::Solution;
 pub use spec::density::Density;
+pub use spec::film::FilmSpec;
 pub use spec::index_text::parse_index;
 pub use spec::{MediumSpec, NamedSpec};
+pub use surroundings::Light;
 pub use water::daimon::Daimon;
 pub use water::microwave::{MicrowaveWater, wavelength_of_ghz};

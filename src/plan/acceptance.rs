@@ -2,10 +2,12 @@
 
 use crate::farfield::assignment::Thresholds;
 use crate::fault::{Blame, Fault};
-use crate::medium::MediumError;
+use crate::math::digits::to_digits;
+use crate::medium::{Medium, MediumError};
 use crate::series::tmatrix::TMatrixError;
 use crate::shape::ShapeError;
 use num_complex::Complex64;
+use std::f64::consts::PI;
 
 /// Why a scene cannot be planned.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +28,12 @@ pub enum PlanError {
          picture can follow (k/n must stay below {limit}); use --method mie (method = \"mie\" in a scene) for a sphere"
     )]
     TooAbsorbing { index: String, place: String, size_parameter: f64, limit: f64 },
+    #[error(
+        "outside: k = {k:e}{place} takes {loss:.1e} of the light along the particle's \
+         diameter: surroundings may take at most {OUTSIDE_LOSS:e}, for efficiencies in absorbing \
+         surroundings depend on a convention and are not offered"
+    )]
+    AbsorbingOutside { k: f64, place: String, loss: f64 },
     #[error(
         "size parameter {size_parameter:.3e}{place}: rays are accepted from {} to {:e} (below, there \
          are no rays; above, phases lose their digits); use --method mie (method = \"mie\" in a scene) for a small sphere",
@@ -63,6 +71,26 @@ pub const DOUBTFUL_PHASE_SHIFT: f64 = Thresholds::MEASURED.doubtful_phase_shift;
 /// ```
 pub fn phase_shift(index: Complex64, size_parameter: f64) -> f64 {
     2.0 * size_parameter * (index.re - 1.0).abs()
+}
+
+/// What light may lose in absorbing surroundings on the way along the particle's diameter: the
+/// series and the rays outside are those of a transparent medium.
+pub const OUTSIDE_LOSS: f64 = 1e-3;
+
+/// Refuses surroundings that take more than [`OUTSIDE_LOSS`] of a wavelength in vacuum over the diameter of a
+/// radius (metres); below it their k is left out (amplitudes refer to light at the particle's centre, and
+/// nothing is lost from there).
+///
+/// # Errors
+/// Surroundings that absorb, or a wavelength outside their data.
+pub fn check_outside(medium: &Medium, vacuum: f64, radius: f64) -> Result<(), PlanError> {
+    let k = medium.outside_absorption(vacuum)?;
+    let loss = 4.0 * PI * k / vacuum * 2.0 * radius;
+    if loss <= OUTSIDE_LOSS {
+        return Ok(());
+    }
+    let place = format!(" at {} nm", to_digits(vacuum * 1e9, 10));
+    Err(PlanError::AbsorbingOutside { k, place, loss })
 }
 
 /// Whether rays can serve a particle of this index and size; `place` says where, for the message.

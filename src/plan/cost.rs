@@ -102,7 +102,9 @@ impl Plan {
     /// What the method holds for one wavelength.
     fn method_memory(&self, scene: &Scene) -> f64 {
         let shortest = scene.wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
-        let x = TAU * self.radius / shortest;
+        // A wavelength without data is refused by the plan itself.
+        let seen = scene.medium.seen_outside(shortest).unwrap_or(shortest);
+        let x = TAU * self.radius / seen;
         let orders = self.orders.len() as f64;
         match self.engine {
             Engine::Patches => {

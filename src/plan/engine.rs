@@ -3,6 +3,7 @@
 use super::acceptance::PlanError;
 use super::t_matrix;
 use crate::farfield::assignment::Thresholds;
+use crate::medium::{Light, MediumError};
 use crate::scene::{Diffraction, Interference, Method, Orientation, Scene};
 use crate::shape::Shape;
 
@@ -27,6 +28,23 @@ impl Engine {
         matches!(self, Engine::LorenzMie | Engine::Debye | Engine::TMatrix)
     }
 
+    /// Light of a wavelength in vacuum as a particle of a radius (metres) meets it: of what varies along the
+    /// radius, which only its series knows of, with the index at the surface.
+    ///
+    /// # Errors
+    /// A wavelength outside the data, or what varies where one index is needed.
+    pub(super) fn light(
+        self,
+        scene: &Scene,
+        radius: f64,
+        wavelength: f64,
+    ) -> Result<Light, MediumError> {
+        match self {
+            Engine::LorenzMie => scene.medium.light_at_surface(wavelength, radius),
+            _ => scene.medium.light(wavelength),
+        }
+    }
+
     /// That of a scene of one kind of particles; a sentence says why.
     pub(super) fn of(
         scene: &Scene,
@@ -38,8 +56,13 @@ impl Engine {
         let sphere = shape.is_sphere();
         Ok(match scene.method {
             Method::Auto if sphere => {
+                let series = if scene.medium.radial().is_some() {
+                    "a series of its own"
+                } else {
+                    "Lorenz–Mie"
+                };
                 reasons
-                    .push("rays are skipped: the particle is a sphere, Lorenz–Mie is exact".into());
+                    .push(format!("rays are skipped: the particle is a sphere, {series} is exact"));
                 Engine::LorenzMie
             }
             Method::Mie if !sphere => return Err(PlanError::SeriesNeedsSphere("mie")),

@@ -3,7 +3,8 @@
 
 use super::{Engine, Plan};
 use crate::farfield::assignment::Assignment;
-use crate::medium::MediumError;
+use crate::medium::radial::Inside;
+use crate::medium::{Light, MediumError};
 use crate::phase_table::{MethodPart, MethodRange};
 use crate::scene::Scene;
 use crate::trace::{Tracer, Wavefront, energy_by_fate};
@@ -60,7 +61,7 @@ impl Plan {
     }
 
     /// The parts of an exact series; none for rays.
-    pub fn series_parts(&self) -> Vec<MethodPart> {
+    pub fn series_parts(&self, scene: &Scene) -> Vec<MethodPart> {
         let part = |order, method: &str| MethodPart {
             order,
             method: method.into(),
@@ -68,7 +69,7 @@ impl Plan {
             ..MethodPart::default()
         };
         match self.engine {
-            Engine::LorenzMie => vec![part(None, "Lorenz–Mie series")],
+            Engine::LorenzMie => vec![part(None, name_of_series(scene))],
             Engine::Debye => {
                 self.orders.iter().map(|&order| part(Some(order), "Debye series")).collect()
             }
@@ -88,15 +89,18 @@ impl Plan {
         let mut skipped = Vec::new();
         let mut parts = Vec::new();
         for &wavelength in &scene.wavelengths {
-            let (index, x) = (scene.medium.index(wavelength)?, TAU * self.radius / wavelength);
+            let Light { wavelength, index } = self.light(scene, wavelength)?;
+            let x = TAU * self.radius / wavelength;
             let tracer = self.tracer(index, x);
             let assignment = self.assignment(&tracer, x);
-            parts.push(assignment.as_ref().map_or_else(|| self.series_parts(), |a| a.parts(&[])));
+            parts.push(
+                assignment.as_ref().map_or_else(|| self.series_parts(scene), |a| a.parts(&[])),
+            );
             skipped.push(assignment.map_or_else(Vec::new, |assignment| assignment.skipped()));
         }
         let mut ranges = MethodRange::collect(scene.wavelengths.iter().copied().zip(&parts));
         for range in &mut ranges {
-            if self.series_parts().is_empty() {
+            if self.series_parts(scene).is_empty() {
                 self.share_out_light(range, scene)?;
             }
         }
@@ -109,16 +113,31 @@ impl Plan {
         Ok(ranges.into_iter().map(planned).collect())
     }
 
+    /// Light of a wavelength in vacuum as the particle meets it.
+    pub(crate) fn light(&self, scene: &Scene, wavelength: f64) -> Result<Light, MediumError> {
+        self.engine.light(scene, self.radius, wavelength)
+    }
+
     /// The share of the light of each order at a range's first wavelength.
     fn share_out_light(&self, range: &mut MethodRange, scene: &Scene) -> Result<(), MediumError> {
         let wavelength = scene.wavelengths[range.first];
-        let (index, x) = (scene.medium.index(wavelength)?, TAU * self.radius / wavelength);
+        let Light { wavelength, index } = scene.medium.light(wavelength)?;
+        let x = TAU * self.radius / wavelength;
         let rays = Wavefront::midpoints(&self.shape, GRID, GRID);
         let light = energy_by_fate(&self.tracer(index, x), &rays).left_by_order;
         for part in &mut range.parts {
             part.share_of_light = part.order.and_then(|order| light.get(order as usize)).copied();
         }
         Ok(())
+    }
+}
+
+/// The exact series of a sphere by what it is made of.
+fn name_of_series(scene: &Scene) -> &'static str {
+    match scene.medium.radial().map(|radial| &radial.inside) {
+        None => "Lorenz–Mie series",
+        Some(Inside::Homogeneous(_) | Inside::Layers(_)) => "series of layers",
+        Some(Inside::Profile(_) | Inside::Gradient(_)) => "series of a radial profile",
     }
 }
 

@@ -3,6 +3,7 @@
 use super::acceptance::PlanError;
 use crate::farfield::assignment::Thresholds;
 use crate::farfield::forward::diffraction::ForwardDiffraction;
+use crate::medium::{Light, MediumError};
 use crate::phase_table::ForwardPeak;
 use crate::scene::{Diffraction, Interference, Orders, Scene};
 use crate::series::tmatrix::{self, Solver, TMatrixError};
@@ -17,15 +18,16 @@ pub fn amplitude_tolerance(tolerance: f64) -> f64 {
     OF_AMPLITUDES * tolerance
 }
 
-/// The largest size parameter of a scene, and its wavelength.
-fn largest(scene: &Scene, radius: f64) -> (f64, f64) {
+/// The largest size parameter of a scene, and its light.
+fn largest(scene: &Scene, radius: f64) -> Result<(f64, Light), MediumError> {
     let shortest = scene.wavelengths.iter().copied().fold(f64::INFINITY, f64::min);
-    (TAU * radius / shortest, shortest)
+    let light = scene.medium.light(shortest)?;
+    Ok((TAU * radius / light.wavelength, light))
 }
 
 /// Refuse a particle that no T-matrix is made for at one of the wavelengths, before any is tried.
 pub(super) fn check(scene: &Scene, shape: &Shape, radius: f64) -> Result<(), PlanError> {
-    Ok(tmatrix::check(shape, largest(scene, radius).0)?)
+    Ok(tmatrix::check(shape, largest(scene, radius)?.0)?)
 }
 
 /// Whether `auto` takes the T-matrix for a body that is no sphere; a sentence says why or why not. It is tried
@@ -46,7 +48,7 @@ pub(super) fn takes(
     if !whole {
         return Ok(false);
     }
-    let (size_parameter, wavelength) = largest(scene, radius);
+    let (size_parameter, Light { index, .. }) = largest(scene, radius)?;
     let mut skip = |why: String| {
         reasons.push(format!("the T-matrix is skipped: {why}"));
         Ok(false)
@@ -71,7 +73,6 @@ pub(super) fn takes(
             expected.cpu_seconds
         ));
     }
-    let index = scene.medium.index(wavelength)?;
     let tolerance = amplitude_tolerance(scene.tolerance);
     match tmatrix::outlook(shape, size_parameter, index, tolerance, budget) {
         Ok(outlook) => {

@@ -36,5 +36,5 @@ pub use plots::font::{FONT, ensure_font};
 #[cfg(feature = "pictures")]
 pub use plots::preview;
 #[cfg(feature = "pictures")]
-pub use ray_paths::draw_ray_paths;
+pub use ray_paths::{DrawnRay, draw_ray_paths};
 pub use thinned::Thinned;

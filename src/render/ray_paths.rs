@@ -1,7 +1,7 @@
 //! The drawing of rays through a drop, as SVG: upper side up, light from the left.
 
 use crate::shape::Shape;
-use crate::trace::{PlaneRay, Rainbow};
+use crate::trace::Rainbow;
 use maud::{Markup, PreEscaped, html};
 use std::f64::consts::TAU;
 
@@ -14,11 +14,20 @@ const BOWS_IN_LINE: usize = 2;
 /// Most rays drawn.
 const MOST_DRAWN: usize = 60;
 
+/// One ray as it is drawn, in the frame of the light: upper side x, along z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawnRay {
+    /// From where it meets the surface first, to where it leaves it or ends.
+    pub points: Vec<[f64; 2]>,
+    /// Its direction where it leaves, if it does.
+    pub leaves: Option<[f64; 2]>,
+}
+
 /// The whole SVG: rays of one order in the vertical plane of a shape, and its rainbows.
 pub fn draw_ray_paths(
     shape: &Shape,
     order: u32,
-    rays: &[PlaneRay],
+    rays: &[DrawnRay],
     rainbows: &[Rainbow],
 ) -> String {
     let side = 2.0 * REACH * SCALE;
@@ -74,7 +83,7 @@ fn outline(shape: &Shape) -> String {
 }
 
 /// Incoming, inner and outgoing stretches of one ray.
-fn path(ray: &PlaneRay) -> Markup {
+fn path(ray: &DrawnRay) -> Markup {
     let Some((&first, &last)) = ray.points.first().zip(ray.points.last()) else {
         return html! {};
     };
@@ -83,12 +92,20 @@ fn path(ray: &PlaneRay) -> Markup {
         html! { line x1=(format!("{x1:.2}")) y1=(format!("{y1:.2}")) x2=(format!("{x2:.2}"))
         y2=(format!("{y2:.2}")) stroke=(colour) stroke-width=(width) {} }
     };
-    let s = ray.exit.direction;
-    let out = [last[0] + 2.0 * REACH * s.x, last[1] + 2.0 * REACH * s.z];
+    let inside: Vec<String> = ray
+        .points
+        .iter()
+        .map(|point| {
+            let (x, y) = pixel(point[0], point[1]);
+            format!("{x:.2},{y:.2}")
+        })
+        .collect();
     html! {
         (line([first[0], -REACH], first, "#c9a400", 0.8))
-        @for pair in ray.points.windows(2) { (line(pair[0], pair[1], "#777777", 0.6)) }
-        (line(last, out, "#c0392b", 0.8))
+        polyline points=(inside.join(" ")) fill="none" stroke="#777777" stroke-width="0.6" {}
+        @if let Some([x, z]) = ray.leaves {
+            (line(last, [last[0] + 2.0 * REACH * x, last[1] + 2.0 * REACH * z], "#c0392b", 0.8))
+        }
     }
 }
 

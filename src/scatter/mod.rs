@@ -3,7 +3,7 @@
 //!
 //! Where [`simulate`](crate::simulate) makes tables of a scene, this answers for single directions and
 //! takes what it is told: an index, a size parameter, orders. [`lorenz_mie`] and [`debye`] serve spheres,
-//! [`rays`] any shape, [`t_matrix`] bodies of revolution. Efficiencies refer to the sphere of equal volume.
+//! [`layered`] those that vary along the radius, [`rays`] any shape, [`t_matrix`] bodies of revolution. Efficiencies refer to the sphere of equal volume.
 //!
 //! ```
 //! use gonio::scatter::{Request, lorenz_mie};
@@ -30,7 +30,7 @@ mod tmatrix;
 
 pub use rays::{RayDiffraction, RayRequest, rays};
 pub use scene::of_scene;
-pub use series::{DebyeTerms, debye, lorenz_mie};
+pub use series::{DebyeTerms, debye, layered, lorenz_mie};
 pub use size::{Size, SizeConflict};
 pub use tmatrix::t_matrix;
 
@@ -47,9 +47,9 @@ use num_complex::Complex64;
 /// Light of one wavelength on one particle, and where it is looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// `2πa/λ` of the sphere of equal volume.
+    /// `2πa/λ` of the sphere of equal volume, λ in the surroundings.
     pub size_parameter: f64,
-    /// Index of the particle.
+    /// Index of the particle, relative to the surroundings.
     pub index: Complex64,
     /// Scattering angles, radians, in any order.
     pub theta: Vec<f64>,

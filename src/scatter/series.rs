@@ -1,11 +1,14 @@
 //! Spheres by the exact series: Lorenz–Mie, and sums of Debye's terms.
 
 use super::{Remainder, Request, Scattering};
+use crate::medium::radial::Body;
 use crate::optics::AmplitudeMatrix;
 use crate::plan::last_order;
 use crate::series::SeriesError;
 use crate::series::debye::{DebyeSeries, Term};
+use crate::series::layered::Layered;
 use crate::series::lorenz_mie::Sphere;
+use crate::series::table::PROFILE_ERROR;
 use num_complex::Complex64;
 
 /// Terms to be summed.
@@ -23,6 +26,22 @@ pub struct DebyeTerms {
 /// A size or an index that the series refuses.
 pub fn lorenz_mie(request: &Request) -> Result<Scattering, SeriesError> {
     let sphere = Sphere::new(request.size_parameter, request.index)?;
+    Ok(Scattering {
+        amplitudes: diagonal(sphere.amplitudes_parallel(&request.theta)),
+        efficiencies: sphere.efficiencies(),
+        diffraction_included: true,
+        remainder: None,
+        worth: None,
+    })
+}
+
+/// A sphere that varies along its radius; the request's index is that at its surface.
+///
+/// # Errors
+/// A size, layers or a profile that the series refuses.
+pub fn layered(request: &Request, body: &Body) -> Result<Scattering, SeriesError> {
+    let error = PROFILE_ERROR * request.tolerance;
+    let sphere = Layered::body(request.size_parameter, body, error)?;
     Ok(Scattering {
         amplitudes: diagonal(sphere.amplitudes_parallel(&request.theta)),
         efficiencies: sphere.efficiencies(),

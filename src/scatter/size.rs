@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 pub struct Size {
     /// Of the sphere of equal volume, metres.
     pub radius: Option<f64>,
-    /// In vacuum, metres.
+    /// In the surroundings, metres.
     pub wavelength: Option<f64>,
     /// `2πa/λ`.
     pub parameter: f64,

@@ -3,6 +3,7 @@
 use super::choice::Named;
 use super::error::SceneError;
 use super::{Diffraction, Interference, Method, Orders, Orientation, Particle, Scene, SunDisc};
+use crate::medium::radial::{Inside, Profile};
 use crate::phase_table::ForwardPeak;
 use crate::size_distribution::SizeDistribution;
 
@@ -147,5 +148,27 @@ impl Scene {
             return refuse("model.rays_across", &rays.to_string(), accepted);
         }
         Ok(())
+    }
+
+    /// What varies along the radius is solved by the exact series.
+    pub(super) fn check_radial(&self) -> Result<(), SceneError> {
+        let Some(radial) = self.medium.radial() else { return Ok(()) };
+        let sphere = matches!(self.particle, Particle::Sphere { .. });
+        if let Inside::Profile(profile @ Profile::Inverse { .. }) = &radial.inside {
+            let accepted = "a profile that is finite at the centre: here waves wind about it without end, and \
+                            no series is regular there; gonio rays draws it";
+            return Err(SceneError::invalid("particle.medium", profile.name(), accepted));
+        }
+        if sphere && matches!(self.method, Method::Auto | Method::Mie) {
+            return Ok(());
+        }
+        let accepted = "layers, profiles and films are for spheres with method = \"mie\" (or \"auto\"): \
+                        rays, Debye terms and the T-matrix follow one index inside";
+        let value = match sphere {
+            true => format!("{} with method = \"{}\"", radial.name(), self.method.name()),
+            false => format!("{} in a particle that is no sphere", radial.name()),
+        };
+        let key = if radial.films.is_empty() { "particle.medium" } else { "particle.coating" };
+        Err(SceneError::invalid(key, value, accepted))
     }
 }

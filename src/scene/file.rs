@@ -6,11 +6,11 @@
 
 use super::choice::{AxisRatioKey, CantingKeys, Choice, OrientationKey, ShapeName};
 #[cfg(feature = "cli")]
-use super::flags::{index, medium, word};
+use super::flags::{coating, index, medium, outside, word};
 use super::grid::Grid;
 use super::sizes::SizeKeys;
 use super::{Diffraction, Interference, Method, Orders, SunDisc};
-use crate::medium::MediumSpec;
+use crate::medium::{FilmSpec, MediumSpec};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use serde::{Deserialize, Serialize};
@@ -86,6 +86,9 @@ macro_rules! section {
     };
 }
 
+/// Films from inside out.
+pub type Films = Vec<FilmSpec>;
+
 section! {
     /// `[particle]`: what scatters. Exactly one of the three sizes, that of the sphere of equal
     /// volume, or a distribution of sizes is to be given.
@@ -115,6 +118,10 @@ section! {
         temperature_c: f64 [value_name = "C", allow_negative_numbers = true]
         /// Medium of the particle: a name, a file, or a table as in a scene file
         medium: MediumSpec [value_name = "NAME", value_parser = medium]
+        /// Medium around the particle: a name, an index, or a table (default: vacuum)
+        outside: MediumSpec [value_name = "NAME|N", value_parser = outside]
+        /// Films on it, from inside out: [{ medium = "ethanol", thickness_nm = 100 }]
+        coating: Films [value_name = "LIST", value_parser = coating]
         /// Density of the medium, for whatever is told per mass (default: the library's)
         density_kg_m3: f64 [value_name = "KG_M3", allow_negative_numbers = true]
     } flags {

@@ -1,7 +1,7 @@
 //! How the flags of scene keys are read: words of closed sets, media, indices.
 
 use super::{Choice, Named};
-use crate::medium::{MediumSpec, parse_index};
+use crate::medium::{FilmSpec, MediumSpec, parse_index};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// Parser of a word from a closed set; `--help` lists the set.
@@ -19,4 +19,17 @@ pub(super) fn index(text: &str) -> Result<[f64; 2], String> {
 /// `water`, `glass.yml`, `{ solute = … }`
 pub(super) fn medium(text: &str) -> Result<MediumSpec, String> {
     MediumSpec::parse(text).map_err(|error| error.to_string())
+}
+
+/// The same, or an index.
+pub(super) fn outside(text: &str) -> Result<MediumSpec, String> {
+    match parse_index(text) {
+        Ok(index) => Ok(MediumSpec::Index { n: index.re, k: index.im }),
+        Err(_) => medium(text),
+    }
+}
+
+/// `[{ medium = "ethanol", thickness_nm = 100 }]`
+pub(super) fn coating(text: &str) -> Result<Vec<FilmSpec>, String> {
+    FilmSpec::parse_list(text).map_err(|error| error.to_string())
 }

@@ -71,6 +71,8 @@ fn known_keys_are_those_of_the_structs() {
             temperature_c: Some(20.0),
             density_kg_m3: Some(1000.0),
             medium: Some(MediumSpec::default()),
+            outside: Some(MediumSpec::default()),
+            coating: Some(Vec::new()),
             index: None,
         },
         particles: Vec::new(),

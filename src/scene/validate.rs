@@ -85,6 +85,7 @@ impl SceneFile {
         for part in scene.parts() {
             part.check_method(scene.modes.is_empty())?;
             part.check_means()?;
+            part.check_radial()?;
         }
         scene.check_size()?;
         Ok(scene)

@@ -188,7 +188,12 @@ pub(super) fn sums(a: &[Complex64], b: &[Complex64]) -> (f64, f64) {
 
 /// Sums of Bohren & Huffman 1983, eqs. 4.61, 4.62 and of sec. 4.5; `absorbed` is
 /// Σ (2n+1)(Re(a+b) - |a|² - |b|²).
-fn efficiencies(x: f64, a: &[Complex64], b: &[Complex64], absorbed: f64) -> Efficiencies {
+pub(super) fn efficiencies(
+    x: f64,
+    a: &[Complex64],
+    b: &[Complex64],
+    absorbed: f64,
+) -> Efficiencies {
     let (scattered, forward) = sums(a, b);
     let mut back = Complex64::ZERO;
     for k in 0..a.len() {

@@ -1,7 +1,7 @@
-//! Exact series for the homogeneous sphere: Lorenz–Mie and its Debye expansion.
+//! Exact series for spheres: Lorenz–Mie, its Debye expansion, and spheres that are not homogeneous.
 //!
-//! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`]); [`angular`] sums them
-//! over the angles; [`mean`] averages over sizes and wavelengths.
+//! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`], [`layered`]); [`angular`] sums
+//! them over the angles; [`mean`] averages over sizes and wavelengths.
 //!
 //! ```
 //! use gonio::series::lorenz_mie::Sphere;
@@ -14,10 +14,12 @@
 
 pub mod angular;
 mod behind;
+mod curves;
 pub mod debye;
 mod debye_error;
 pub(crate) mod even_angles;
 pub(crate) mod lanes;
+pub mod layered;
 mod legendre;
 pub mod lorenz_mie;
 pub mod mean;
@@ -102,4 +104,15 @@ fn checked_term_count(size_parameter: f64, index: Complex64) -> Result<usize, Se
     let mut probe: Vec<Complex64> = Vec::new();
     probe.try_reserve_exact(4 * terms).map_err(|_| SeriesError::OutOfMemory { terms })?;
     Ok(terms)
+}
+
+/// S11, S12, S33, S34 of a sphere's amplitudes; `area` is the square of 1/k, m².
+fn elements((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {
+    let (perpendicular, parallel, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
+    [
+        0.5 * area * (parallel + perpendicular),
+        0.5 * area * (parallel - perpendicular),
+        area * cross.re,
+        -area * cross.im,
+    ]
 }

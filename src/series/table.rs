@@ -7,11 +7,14 @@
 //! Means over drop sizes, over a band of wavelengths and over the sun's disc enter here
 //! ([`super::mean`], `sun_disc.rs`); cross-sections are then those of the mean particle.
 
-use super::SeriesError;
+use super::curves::{Curves, SERIES_ERROR};
 use super::debye::{DebyeSeries, Term};
 use super::debye_error::BandErrors;
+use super::layered::Layered;
+use super::layered::mean::RadialEnsemble;
 use super::lorenz_mie::{Sphere, sums};
 use super::mean::{Ensemble, MeanError};
+use super::{SeriesError, elements};
 use crate::color::LimbDarkening;
 use crate::medium::Medium;
 use crate::phase_table::{Axes, ForwardPeak, Quantity, Slab};
@@ -41,9 +44,9 @@ pub struct SphereJob<'a> {
     pub sizes: SizeDistribution,
     /// What they are made of.
     pub medium: &'a Medium,
-    /// Wavelength in vacuum and width of a band about it, metres.
+    /// In the surroundings, metres.
     pub wavelength: f64,
-    /// Full width at half maximum of each wavelength's band, metres; 0: none.
+    /// Full width at half maximum of a band about it, in the surroundings, metres; 0: none.
     pub bandwidth: f64,
     /// What the sun's disc does.
     pub sun_disc: SunDisc,
@@ -59,26 +62,11 @@ const SAMPLES_PER_LOBE: f64 = 8.0;
 /// Step of θ, in lobes, from which on cells hold means. The sum over point samples is off by about
 /// 0.01 (step x)², so that with finer steps it misses 1 by less than 1e-3.
 const COARSE: f64 = 0.08;
-/// Relative error of the series itself.
-const SERIES_ERROR: f64 = 1e-9;
+/// Relative error of the amplitudes of a radial profile in units of the tolerance: 1e-9 at 1 %, so
+/// that behind, where they are a hundred times smaller than in the forward peak, it is below 1e-7.
+pub const PROFILE_ERROR: f64 = 1e-7;
 /// Relative error of a mean over the sun's disc, see [`super::sun_disc`].
 const DISC_ERROR: f64 = 3e-4;
-
-/// Curves at some angles, with the cross-sections.
-struct Curves {
-    /// S11, S12, S33, S34 as areas per solid angle.
-    elements: Vec<[f64; 4]>,
-    scattering: f64,
-    extinction: f64,
-    absorption: f64,
-    /// Extinction by the optical theorem on the amplitudes straight ahead.
-    forward: Option<f64>,
-    asymmetry: f64,
-    /// Share of the scattering that the terms of a list leave out; negative where those left out take
-    /// light away by interference.
-    left_out: f64,
-    errors: BandErrors,
-}
 
 /// One wavelength of a table of spheres: `theta` ascending, radians. The values have one azimuth.
 ///
@@ -91,7 +79,11 @@ pub fn sphere_slab(
     quantity: Quantity,
     forward_peak: ForwardPeak,
 ) -> Result<Slab, MeanError> {
-    let (wavelength, index) = (job.wavelength, job.medium.index(job.wavelength)?);
+    let wavelength = job.wavelength;
+    let index = match job.medium.body(wavelength, job.sizes.effective_radius())? {
+        Some(body) => body.surface(),
+        None => job.medium.index(wavelength)?,
+    };
     let largest = TAU * job.sizes.limits(job.tolerance, TAU / wavelength).1 / wavelength;
     let mut cells = Vec::new();
     if forward_peak == ForwardPeak::CellAverage {
@@ -169,7 +161,7 @@ impl SphereJob<'_> {
         let limb = match self.sun_disc {
             SunDisc::None => return self.curves(index, theta),
             SunDisc::Uniform => None,
-            SunDisc::LimbDarkened => Some(LimbDarkening::at(self.wavelength)),
+            SunDisc::LimbDarkened => Some(LimbDarkening::at(self.medium.vacuum(self.wavelength)?)),
         };
         let disc = DiscMean::new(largest, limb);
         let mut curves = self.curves(index, &disc.fine_angles())?;
@@ -185,8 +177,12 @@ impl SphereJob<'_> {
             _ => return self.mean_curves(theta),
         };
         let x = TAU * radius / self.wavelength;
-        let sphere = Sphere::new(x, index)?;
         let area = (self.wavelength / TAU).powi(2);
+        if let Some(body) = self.medium.body(self.wavelength, radius)? {
+            let sphere = Layered::body(x, &body, PROFILE_ERROR * self.tolerance)?;
+            return Ok(Curves::of_layered(&sphere, theta, radius, self.wavelength));
+        }
+        let sphere = Sphere::new(x, index)?;
         let (amplitudes, forward, left_out, errors) = match &self.source {
             Source::LorenzMie => {
                 let (s1, s2) = sphere.amplitudes(&[0.0])[0];
@@ -220,7 +216,7 @@ impl SphereJob<'_> {
         let shadow = PI * radius * radius;
         let q = sphere.efficiencies();
         Ok(Curves {
-            elements: amplitudes.into_iter().map(|pair| of_pair(pair, area)).collect(),
+            elements: amplitudes.into_iter().map(|pair| elements(pair, area)).collect(),
             scattering: q.q_sca * shadow,
             extinction: q.q_ext * shadow,
             absorption: q.q_abs * shadow,
@@ -232,6 +228,17 @@ impl SphereJob<'_> {
     }
 
     fn mean_curves(&self, theta: &[f64]) -> Result<Curves, MeanError> {
+        if self.medium.radial().is_some() {
+            let ensemble = RadialEnsemble {
+                sizes: &self.sizes,
+                medium: self.medium,
+                wavelength: self.wavelength,
+                bandwidth: self.bandwidth,
+                tolerance: self.tolerance,
+                accept_unmet: self.allow_unmet,
+            };
+            return Ok(Curves::of_mean(ensemble.mean(theta)?));
+        }
         let ensemble = Ensemble {
             sizes: self.sizes.clone(),
             medium: self.medium,
@@ -240,17 +247,7 @@ impl SphereJob<'_> {
             tolerance: self.tolerance,
             accept_unmet: self.allow_unmet,
         };
-        let mean = ensemble.mean(theta)?;
-        Ok(Curves {
-            elements: mean.elements,
-            scattering: mean.scattering,
-            extinction: mean.scattering + mean.absorption,
-            absorption: mean.absorption,
-            forward: Some(mean.forward_extinction),
-            asymmetry: mean.asymmetry,
-            left_out: 0.0,
-            errors: BandErrors::even(mean.error),
-        })
+        Ok(Curves::of_mean(ensemble.mean(theta)?))
     }
 }
 
@@ -271,16 +268,6 @@ fn faded(scattered: f64) -> SeriesError {
         value: format!("terms with a scattering efficiency of {scattered:.1e}"),
         accepted: "orders whose light is not absorbed inside; method = \"mie\" has the whole",
     }
-}
-
-fn of_pair((s1, s2): (Complex64, Complex64), area: f64) -> [f64; 4] {
-    let (perpendicular, parallel, cross) = (s1.norm_sqr(), s2.norm_sqr(), s1 * s2.conj());
-    [
-        0.5 * area * (parallel + perpendicular),
-        0.5 * area * (parallel - perpendicular),
-        area * cross.re,
-        -area * cross.im,
-    ]
 }
 
 /// Cells about the forward direction that are coarser than [`COARSE`]. The cell at 0 is half as wide

@@ -1,5 +1,6 @@
 //! A slab of spheres by the exact series.
 
+use crate::medium::Light;
 use crate::phase_table::Slab;
 use crate::plan::{Engine, Plan};
 use crate::scene::Scene;
@@ -8,11 +9,12 @@ use crate::series::mean::MeanError;
 use crate::series::table::{Source, SphereJob, sphere_slab};
 use crate::size_distribution::SizeDistribution;
 
-/// The slab of one wavelength.
+/// The slab of one wavelength: in vacuum, and as the surroundings see it.
 ///
 /// # Errors
 /// Those of [`sphere_slab`].
-pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, MeanError> {
+pub fn slab(scene: &Scene, plan: &Plan, vacuum: f64, light: Light) -> Result<Slab, MeanError> {
+    let wavelength = light.wavelength;
     let source = if plan.engine == Engine::LorenzMie {
         Source::LorenzMie
     } else {
@@ -25,7 +27,7 @@ pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, MeanErr
         sizes: scene.size_distribution.clone().unwrap_or(one),
         medium: &scene.medium,
         wavelength,
-        bandwidth: scene.bandwidth,
+        bandwidth: scene.bandwidth * wavelength / vacuum,
         sun_disc: scene.sun_disc,
         tolerance: scene.tolerance,
         allow_unmet: scene.allow_unmet_tolerance,

@@ -1,17 +1,16 @@
 //! One wavelength of a scene by the T-matrix.
 
+use crate::medium::Light;
 use crate::phase_table::{Axes, Slab};
 use crate::plan::{Plan, amplitude_tolerance};
 use crate::scene::{Orientation, Scene};
 use crate::series::tmatrix::{TMatrix, TMatrixError, TableJob};
-use num_complex::Complex64;
 use std::f64::consts::TAU;
 
 pub(super) fn slab(
     scene: &Scene,
     plan: &Plan,
-    wavelength: f64,
-    index: Complex64,
+    Light { wavelength, index }: Light,
 ) -> Result<Slab, TMatrixError> {
     let size_parameter = TAU * plan.radius / wavelength;
     let tolerance = amplitude_tolerance(scene.tolerance);

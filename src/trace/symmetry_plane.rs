@@ -46,6 +46,13 @@ pub struct Rainbow {
     pub deviation: f64,
 }
 
+impl Rainbow {
+    /// Which half of the particle it is made in.
+    pub fn branch(&self) -> &'static str {
+        if self.impact >= 0.0 { "upper" } else { "lower" }
+    }
+}
+
 /// Intervals of the search: so close that two rainbows of one drop never share one.
 const SCAN: usize = 4000;
 /// Halvings of an interval: beyond the last digit of an impact.

@@ -8,6 +8,7 @@ mod batch_contract;
 mod batch_resume;
 mod cli_bad_input;
 mod hostile_input;
+mod layers;
 mod medium_cli;
 mod populations;
 mod rays_contract;

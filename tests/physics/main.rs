@@ -20,6 +20,7 @@ mod one_drop;
 mod random_scenes;
 mod reciprocity;
 mod series_debye_reference;
+mod series_layered;
 mod series_means;
 mod series_mie_reference;
 mod stress;

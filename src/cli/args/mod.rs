@@ -1,5 +1,6 @@
 //! What is typed: flags that several commands share, and the grammar of their values.
 
+pub mod medium;
 pub mod memory;
 pub mod particle;
 pub mod polarisation;

@@ -2,7 +2,6 @@
 
 use crate::cli::failure::{Failure, Result};
 use clap::ValueEnum;
-use gonio::medium::Medium;
 use gonio::scatter::DebyeTerms;
 use gonio::scene::Named;
 use gonio::shape::RaindropModel;
@@ -60,11 +59,6 @@ pub struct Index(pub Complex64);
 /// `1.333` or `1.333+0.001` (n+ik), as in [`gonio::medium::parse_index`].
 pub fn parse_index(text: &str) -> Result<Index, String> {
     gonio::medium::parse_index(text).map(Index).map_err(|error| error.to_string())
-}
-
-/// The index of water at 20 °C, at a wavelength in vacuum (metres).
-pub fn water_index(wavelength: f64) -> Result<Complex64> {
-    Ok(Medium::Water { temperature: 293.15 }.index(wavelength)?)
 }
 
 /// `auto`, or a list of orders with or without the word `diffraction`.

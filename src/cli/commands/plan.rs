@@ -192,7 +192,7 @@ impl Trials {
             let range = planned.range.first..planned.range.first + planned.range.count;
             if let Some((i, slab)) = self.slabs.iter().find(|(i, _)| range.contains(i)) {
                 planned.tried(scene.wavelengths[*i], tried.len(), &slab.methods);
-                if *i == self.slabs[0].0 && plan.series_parts().is_empty() {
+                if *i == self.slabs[0].0 && plan.series_parts(scene).is_empty() {
                     let shares = shares_of_time(scene, plan, tried, slab, self.first_slab);
                     planned.share_of_time = Some(shares);
                 }
@@ -247,7 +247,9 @@ fn shares_of_time(
     slab: &Slab,
     seconds: f64,
 ) -> (Vec<f64>, f64) {
-    let size_parameter = TAU * plan.radius / slab.wavelength;
+    // It has been computed at this wavelength.
+    let seen = scene.medium.seen_outside(slab.wavelength).unwrap_or(slab.wavelength);
+    let size_parameter = TAU * plan.radius / seen;
     let at = |&phi: &f64| scene.theta.iter().map(move |&theta| (theta, phi));
     let directions: Vec<(f64, f64)> = azimuths.iter().flat_map(at).collect();
     let alone = |order: u32| {

@@ -30,11 +30,19 @@ pub(in crate::medium) struct CatalogueEntry {
 }
 
 /// Media whose data are tables: name, file, what it is.
-pub(in crate::medium) const TABLES: [(&str, &str, &str); 5] = [
+pub(in crate::medium) const TABLES: [(&str, &str, &str); 13] = [
     ("ice", "ice_warren_brandt_2008", "table of n and k"),
     ("water-segelstein", "water_segelstein_1981", "table of n and k"),
     ("water-hale-querry", "water_hale_querry_1973", "table of n and k"),
     ("diamond-phillip-taft", "diamond_phillip_taft_1964", "table of n and k"),
+    ("gold", "gold_johnson_christy_1972", "table of n and k"),
+    ("silver", "silver_johnson_christy_1972", "table of n and k"),
+    ("copper", "copper_johnson_christy_1972", "table of n and k"),
+    ("aluminium", "aluminium_rakic_1995", "table of n and k"),
+    ("soot-acetylene", "soot_acetylene_dalzell_1969", "table of n and k"),
+    ("soot-propane", "soot_propane_dalzell_1969", "table of n and k"),
+    ("soot-diesel", "soot_diesel_querry_1987", "table of n and k"),
+    ("ethanol", "ethanol_sani_2016", "table of n and k"),
     ("rhodamine6g", "rhodamine6g_film_seckin_2023", "dye film, table of n and k; solute"),
 ];
 

@@ -21,12 +21,20 @@ macro_rules! shipped {
 }
 
 /// Names and texts of the shipped tables.
-const FILES: [(&str, &str); 7] = shipped![
+const FILES: [(&str, &str); 15] = shipped![
     "ice_warren_brandt_2008",
     "water_segelstein_1981",
     "water_hale_querry_1973",
     "water_pope_fry_1997",
     "water_k_kedenburg_2012",
     "diamond_phillip_taft_1964",
-    "rhodamine6g_film_seckin_2023"
+    "rhodamine6g_film_seckin_2023",
+    "gold_johnson_christy_1972",
+    "silver_johnson_christy_1972",
+    "copper_johnson_christy_1972",
+    "aluminium_rakic_1995",
+    "soot_acetylene_dalzell_1969",
+    "soot_propane_dalzell_1969",
+    "soot_diesel_querry_1987",
+    "ethanol_sani_2016"
 ];

@@ -31,7 +31,7 @@ const SCHOTT: &str = "Schott Zemax catalogue of 2017-01-20, via refractiveindex.
 const LATTICE: &str = "X-ray density: mass of the unit cell over its volume";
 
 /// Media of one density: name, kg/m³, source.
-const SOLIDS: [(&str, f64, &str); 36] = [
+const SOLIDS: [(&str, f64, &str); 42] = [
     ("ice", 917.0, "ice Ih, S. G. Warren & R. E. Brandt, J. Geophys. Res. 113, D14220 (2008)"),
     ("diamond", 3515.0, LATTICE),
     ("diamond-phillip-taft", 3515.0, LATTICE),
@@ -45,6 +45,12 @@ const SOLIDS: [(&str, f64, &str); 36] = [
     ("rock-salt", 2164.0, LATTICE),
     ("YAG", 4555.0, LATTICE),
     ("PMMA", 1185.0, "data sheets of cast sheets, 1180 to 1190"),
+    ("gold", 19_283.0, LATTICE),
+    ("silver", 10_500.0, LATTICE),
+    ("copper", 8_935.0, LATTICE),
+    ("aluminium", 2_698.0, LATTICE),
+    ("polystyrene", 1050.0, "data sheets of latex spheres, 1050 to 1055"),
+    ("ethanol", 789.3, "liquid at 20 °C, CRC Handbook of Chemistry and Physics, 95th ed."),
     ("air", 1.225, "dry air at 15 °C and 101 325 Pa, ISO 2533"),
     ("LITHOSIL-Q", 2200.0, SCHOTT),
     ("N-BK7", 2510.0, SCHOTT),
@@ -173,6 +179,10 @@ mod tests {
         for (name, units, molar_mass, volume) in [
             ("diamond", 8.0, 12.011, 3.5671f64.powi(3)),
             ("rock-salt", 4.0, 58.443, 5.6402f64.powi(3)),
+            ("gold", 4.0, 196.967, 4.0786f64.powi(3)),
+            ("silver", 4.0, 107.868, 4.0862f64.powi(3)),
+            ("copper", 4.0, 63.546, 3.6149f64.powi(3)),
+            ("aluminium", 4.0, 26.982, 4.0496f64.powi(3)),
             ("fluorite", 4.0, 78.075, 5.4626f64.powi(3)),
             ("spinel", 8.0, 142.266, 8.0831f64.powi(3)),
             ("YAG", 8.0, 593.62, 12.0075f64.powi(3)),

@@ -4,6 +4,7 @@
 //! rather than ignored.
 
 use crate::medium::dispersion::abbe::AbbeLines;
+use crate::medium::radial::spec::{RadialSpec, is_meant};
 use crate::medium::spec::{MediumSpec, NamedSpec};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -67,7 +68,8 @@ struct SellmeierKeys {
 }
 
 /// The keys that say which kind of medium it is.
-const KINDS: &str = "name, index, file, sellmeier, cauchy, abbe, solute or absorbance";
+const KINDS: &str =
+    "name, index, file, sellmeier, cauchy, abbe, solute, absorbance, layers, profile or core";
 
 impl MediumSpec {
     /// The keys that stand for this medium.
@@ -115,6 +117,8 @@ impl MediumSpec {
                 dispersion: only_false(dispersion),
                 ..Keys::default()
             },
+            // It has keys of its own.
+            Self::Radial(_) => Keys::default(),
         }
     }
 }
@@ -212,15 +216,32 @@ impl<'de> Deserialize<'de> for MediumSpec {
             type Value = MediumSpec;
 
             fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-                write!(f, "a medium: a name such as \"water\", or a table with one of {KINDS}")
+                write!(
+                    f,
+                    "a medium: a name such as \"water\", a number (n), or a table with one of {KINDS}"
+                )
             }
 
             fn visit_str<E: de::Error>(self, name: &str) -> Result<MediumSpec, E> {
                 Ok(MediumSpec::name(name))
             }
 
+            fn visit_f64<E: de::Error>(self, n: f64) -> Result<MediumSpec, E> {
+                Ok(MediumSpec::Index { n, k: 0.0 })
+            }
+
+            fn visit_i64<E: de::Error>(self, n: i64) -> Result<MediumSpec, E> {
+                Ok(MediumSpec::Index { n: n as f64, k: 0.0 })
+            }
+
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<MediumSpec, A::Error> {
-                let keys = Keys::deserialize(de::value::MapAccessDeserializer::new(map))?;
+                let table = toml::Table::deserialize(de::value::MapAccessDeserializer::new(map))?;
+                let plain = |error: toml::de::Error| de::Error::custom(error.message());
+                if is_meant(&table) {
+                    let spec = RadialSpec::deserialize(table).map_err(plain)?;
+                    return Ok(MediumSpec::Radial(Box::new(spec)));
+                }
+                let keys = Keys::deserialize(table).map_err(plain)?;
                 MediumSpec::try_from(keys).map_err(de::Error::custom)
             }
         }
@@ -238,6 +259,7 @@ impl Serialize for MediumSpec {
                 salinity_g_kg: None,
                 extrapolate: false,
             }) => serializer.serialize_str(name),
+            Self::Radial(spec) => spec.serialize(serializer),
             _ => self.keys().serialize(serializer),
         }
     }

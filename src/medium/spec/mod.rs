@@ -12,17 +12,21 @@
 //! medium = { abbe = [1.5168, 64.17], line = "d" }        # d (default), D or e
 //! medium = { solute = "rhodamine6g", fraction = 0.01, host = "water" }
 //! medium = { absorbance = "dye.csv", path_mm = 10, host = "water" }
+//! medium = { layers = [ { radius_fraction = 0.8, medium = "water" }, { medium = "ice" } ] }
+//! medium = { profile = "luneburg", c = 3.0 }             # these two and more: see `radial/spec.rs`
 //! ```
 //! A solution also takes `dispersion = false`: the dye's k with the host's n. A solute may be a CSV
 //! file with k. Files are looked for beside the scene file.
 
 pub(super) mod density;
+pub(super) mod film;
 pub(super) mod index_text;
 mod keys;
 mod resolve;
 
 use crate::medium::dispersion::abbe::AbbeLines;
 use crate::medium::error::{MediumError, invalid};
+use crate::medium::radial::spec::RadialSpec;
 use crate::medium::read::ending::has_ending;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -88,6 +92,8 @@ pub enum MediumSpec {
         /// Whether its absorption changes n too (Kramers–Kronig).
         dispersion: bool,
     },
+    /// What varies along the radius of a sphere.
+    Radial(Box<RadialSpec<MediumSpec>>),
 }
 
 /// A name in the library with the conditions that go with it.

@@ -52,6 +52,23 @@ impl MediumSpec {
                 let dye = dye_of_absorbance(&base_dir.join(path), *path_mm)?;
                 solution(dye, 1.0, host.resolve(base_dir)?, *dispersion)
             }
+            Self::Radial(radial) => {
+                let radial = radial.resolve(base_dir, |layer| layer.plain(base_dir))?;
+                Ok(Medium::Radial(Arc::new(radial)))
+            }
+        }
+    }
+}
+
+impl MediumSpec {
+    /// A layer of something larger, which must be the same everywhere.
+    fn plain(&self, base_dir: &Path) -> Result<Medium, MediumError> {
+        match self.resolve(base_dir)? {
+            Medium::Radial(radial) => {
+                let accepted = "a medium that is the same everywhere";
+                Err(invalid("medium: layers: medium", radial.name(), accepted))
+            }
+            plain => Ok(plain),
         }
     }
 }

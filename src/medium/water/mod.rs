@@ -10,6 +10,7 @@ pub(super) mod microwave;
 pub(super) mod sea;
 
 use crate::medium::error::{MediumError, check_range, invalid};
+use microwave::{MICROWAVES, MicrowaveWater};
 use num_complex::Complex64;
 
 /// Wavelengths the formulation may be used at, metres.
@@ -32,6 +33,18 @@ pub(in crate::medium) fn index(
 ) -> Result<Complex64, MediumError> {
     check_temperature(temperature, false)?;
     at_density(wavelength, temperature, liquid_density(temperature))
+}
+
+/// Index of liquid water at 1 atm by the formula of its wavelength (metres), in the microwave too; temperature
+/// in kelvin.
+pub(in crate::medium) fn liquid(
+    wavelength: f64,
+    temperature: f64,
+) -> Result<Complex64, MediumError> {
+    if wavelength >= MICROWAVES {
+        return MicrowaveWater::Liebe1991.index(wavelength, temperature);
+    }
+    index(wavelength, temperature)
 }
 
 /// Index of water or steam of any density in kg/m³. k is that of the liquid, scaled by density.

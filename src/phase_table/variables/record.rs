@@ -59,7 +59,12 @@ pub const PLAIN: [(&str, &str, &str, Getter<Record>); 8] = [
     ("scattering_cross_section", "m2", "scattering cross-section", |r| r.scattering_cross_section),
     ("extinction_cross_section", "m2", "extinction cross-section", |r| r.extinction_cross_section),
     ("asymmetry", "1", "mean cosine of the scattering angle", |r| r.asymmetry),
-    ("refractive_index_real", "1", "real part of the refractive index", |r| r.index.re),
+    (
+        "refractive_index_real",
+        "1",
+        "real part of the refractive index, relative to the outside, at the surface",
+        |r| r.index.re,
+    ),
     ("refractive_index_imag", "1", "imaginary part of the index, positive absorbs", |r| r.index.im),
     (
         "sum_before_peak",

@@ -12,7 +12,8 @@ pub(super) use amount::amount;
 use super::choice::AxisRatioKey;
 use super::error::SceneError;
 use super::file::{ModeKeys, ParticleKeys, SceneFile};
-use super::particle::{canting, density_of, medium_of, particle_of, size_distribution};
+use super::particle::medium::{density_of, medium_of};
+use super::particle::{canting, particle_of, size_distribution};
 use super::{Method, Orientation, Particle, Scene};
 use crate::math::digits::to_digits;
 use crate::medium::{Density, Medium};
@@ -50,9 +51,12 @@ const ADD_UP: f64 = 1e-3;
 impl Mode {
     fn new(keys: &ParticleKeys, folder: &Path, wavelengths: &[f64]) -> Result<Self, SceneError> {
         let size_distribution = size_distribution(keys, folder)?;
+        let particle = particle_of(keys, size_distribution.as_ref())?;
+        let radius = particle.radius();
+        let smallest = size_distribution.as_ref().map_or(radius, |sizes| sizes.bounds().0);
         Ok(Self {
             number_share: 1.0,
-            particle: particle_of(keys, size_distribution.as_ref())?,
+            particle,
             size_distribution,
             orientation: keys.orientation.map_or(Orientation::Upright, |key| key.0),
             axis_ratio_law: match keys.axis_ratio {
@@ -60,7 +64,7 @@ impl Mode {
                 _ => None,
             },
             canting: canting(keys)?,
-            medium: medium_of(keys, folder, wavelengths)?,
+            medium: medium_of(keys, folder, (smallest, radius), wavelengths)?,
             density: density_of(keys, wavelengths)?,
         })
     }
@@ -141,6 +145,7 @@ pub(super) fn modes(
             Mode::new(&keys.particle, folder, wavelengths).map_err(|error| error.of_mode(place))?;
         modes.push(mode);
     }
+    one_outside(&modes)?;
     for (mode, share) in modes.iter_mut().zip(shares(&file.particles)?) {
         let volume = match share.kind {
             "number_fraction" => 1.0,
@@ -159,6 +164,21 @@ pub(super) fn modes(
     let total: f64 = modes.iter().map(|mode| mode.number_share).sum();
     modes.iter_mut().for_each(|mode| mode.number_share /= total);
     Ok(modes.into_iter().flat_map(split).collect())
+}
+
+/// Particles of one volume are in one medium.
+fn one_outside(modes: &[Mode]) -> Result<(), SceneError> {
+    let outside = |mode: &Mode| mode.medium.surroundings().map(Medium::name);
+    let first = modes.first().and_then(outside);
+    match modes.iter().map(outside).find(|other| *other != first) {
+        None => Ok(()),
+        Some(other) => {
+            let words = |name: Option<String>| name.unwrap_or_else(|| "vacuum".into());
+            let accepted =
+                format!("the first kind is in {}; all need the same outside", words(first));
+            Err(SceneError::invalid("particles.outside", words(other), accepted))
+        }
+    }
 }
 
 struct Share {

@@ -5,6 +5,7 @@ use super::error::band_errors;
 use super::one_order::Drop;
 use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
 use crate::farfield::forward::penumbra_layout::near_axis;
+use crate::medium::Light;
 use crate::phase_table::{Axes, ForwardPeak, MethodPart, Slab};
 use crate::plan::Plan;
 use crate::population::{Radius, radii};
@@ -28,8 +29,8 @@ pub(crate) fn slab(
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
     let sizes = &sizes_of(scene);
-    let index = scene.medium.index(wavelength)?;
-    let light = (wavelength, index);
+    let Light { wavelength: seen, index } = scene.medium.light(wavelength)?;
+    let light = (seen, index);
     let table = plan.table_azimuths(&scene.phi);
     let azimuths = Azimuths::new(plan.computed_azimuths(&table));
     let computed = azimuths.computed();
@@ -58,14 +59,14 @@ pub(crate) fn slab(
     }
     let [extinction, absorption] = sections;
     let scattering = extinction - absorption;
-    let size_parameter = TAU * sizes.effective_radius() / wavelength;
+    let size_parameter = TAU * sizes.effective_radius() / seen;
     let errors = band_errors(&scene.theta, &((&means[0] - &means[1]) * OF_DIFFERENCE), &means[0])
         .and(|theta| plan.thresholds.doubt_of_powers(size_parameter, theta));
     let axes =
         Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: table.clone() };
     let mut values = azimuths.spread(&means[0], &table) / scattering;
     let (smallest, _) = sizes.bounds();
-    let (sum_before_peak, closed) = close(scene, &axes, &mut values, TAU * smallest / wavelength);
+    let (sum_before_peak, closed) = close(scene, &axes, &mut values, TAU * smallest / seen);
     let values = values.mapv(|value| value as f32);
     let change = PeakChange::new(&axes, closed.view(), values.index_axis(Axis(0), 0));
     let errors = errors.beside(change.weighted, &change.by_direction);

@@ -7,6 +7,7 @@
 use super::azimuths::Azimuths;
 use super::error::band_errors;
 use super::one_order::Drop;
+use crate::medium::{Light, MediumError};
 use crate::plan::Plan;
 use crate::population::{Radius, radii};
 use crate::scene::{Particle, Scene};
@@ -72,6 +73,11 @@ pub(super) fn sizes_of(scene: &Scene) -> SizeDistribution {
     scene.size_distribution.clone().unwrap_or_else(one)
 }
 
+/// Light of the middle one of a scene's wavelengths.
+fn middle_light(scene: &Scene) -> Result<Light, MediumError> {
+    scene.medium.light(scene.wavelengths[scene.wavelengths.len() / 2])
+}
+
 /// The means of an order over every radius and every second.
 type Means = [Array3<f64>; 2];
 
@@ -85,8 +91,7 @@ impl Steps {
         plan: &Plan,
         sizes: &SizeDistribution,
     ) -> Result<Self, SimulateError> {
-        let wavelength = scene.wavelengths[scene.wavelengths.len() / 2];
-        let index = scene.medium.index(wavelength)?;
+        let Light { wavelength, index } = middle_light(scene)?;
         let azimuths: Vec<f64> = match scene.phi.as_slice() {
             [one] => vec![plan.computed_azimuths(&[*one]).0[0]],
             _ => AZIMUTHS.to_vec(),
@@ -147,8 +152,8 @@ impl Steps {
             &mut dyn FnMut() -> Result<(), SimulateError>,
         ) -> Result<f64, SimulateError>,
     ) -> Result<f64, SimulateError> {
-        let wavelength = scene.wavelengths[scene.wavelengths.len() / 2];
-        let light = (wavelength, scene.medium.index(wavelength)?);
+        let Light { wavelength, index } = middle_light(scene)?;
+        let light = (wavelength, index);
         let table = plan.table_azimuths(&scene.phi);
         let azimuths = Azimuths::new(plan.computed_azimuths(&table)).computed();
         let mut total = 0.0;

@@ -1,7 +1,9 @@
 //! What `gonio scatter` is asked, as flags and as the checked job that they make.
 
+use crate::cli::args::medium::MediumFlags;
 use crate::cli::args::particle::{Index, ShapeKind, parse_index};
 use clap::{Args, ValueEnum};
+use gonio::medium::radial::Body;
 use gonio::scatter::{DebyeTerms, Request};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -42,12 +44,14 @@ pub struct ScatterArgs {
     /// Frequency in place of the wavelength
     #[arg(long, value_name = "GHZ", allow_hyphen_values = true, conflicts_with = "wavelength_nm")]
     pub(super) frequency_ghz: Option<f64>,
-    /// Size parameter 2πa/λ of the sphere of equal volume
+    /// Size parameter 2πa/λ of the sphere of equal volume, λ in the medium around it
     #[arg(long, allow_hyphen_values = true)]
     pub(super) size_parameter: Option<f64>,
     /// Index n or n+k; without it, water at the wavelength
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
     pub(super) index: Option<Index>,
+    #[command(flatten)]
+    pub(super) made_of: MediumFlags,
     /// Vertical over horizontal diameter of a spheroid
     #[arg(long, allow_hyphen_values = true)]
     pub(super) axis_ratio: Option<f64>,
@@ -83,7 +87,12 @@ pub struct ScatterArgs {
 
 /// What was asked for, checked.
 pub(super) struct Job {
+    /// Size parameter and index are relative to the surroundings.
     pub(super) request: Request,
+    /// Index of the surroundings.
+    pub(super) outside: f64,
+    /// What varies along the radius.
+    pub(super) body: Option<Body>,
     /// Metres, where it is known.
     pub(super) radius: Option<f64>,
     pub(super) theta_deg: Vec<f64>,

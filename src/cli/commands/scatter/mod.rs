@@ -4,18 +4,17 @@
 mod args;
 mod report;
 
-use crate::cli::args::particle::{
-    Index, ShapeFlags, ShapeKind, parse_orders, raindrop_model, water_index,
-};
+use crate::cli::args::particle::{ShapeFlags, ShapeKind, parse_orders, raindrop_model};
 use crate::cli::args::ranges::scattering_angles;
 use crate::cli::failure::{Failure, Result};
 pub use args::ScatterArgs;
 use args::{DiffractionName, Job, MethodName};
 use gonio::math::digits::to_digits;
-use gonio::medium::wavelength_of_ghz;
-use gonio::plan::check_rays;
+use gonio::medium::{Light, Medium, wavelength_of_ghz};
+use gonio::plan::{check_outside, check_rays};
 use gonio::scatter::{self, RayDiffraction, RayRequest, Request, Scattering, Size, SizeConflict};
 use gonio::shape::Shape;
+use std::f64::consts::TAU;
 use std::time::Instant;
 
 pub fn run(args: ScatterArgs) -> Result<()> {
@@ -24,8 +23,12 @@ pub fn run(args: ScatterArgs) -> Result<()> {
     let seen = match args.method {
         MethodName::Mie => {
             sphere_only(&args)?;
-            scatter::lorenz_mie(&job.request)?
+            match &job.body {
+                Some(body) => scatter::layered(&job.request, body)?,
+                None => scatter::lorenz_mie(&job.request)?,
+            }
         }
+        _ if job.body.is_some() => return Err(one_index_only(&args)),
         MethodName::Debye => {
             sphere_only(&args)?;
             scatter::debye(&job.request, &job.terms)?
@@ -47,6 +50,20 @@ fn usage(message: impl Into<String>) -> Failure {
     Failure::usage(message)
 }
 
+/// Rays, Debye terms and the T-matrix follow one index.
+fn one_index_only(args: &ScatterArgs) -> Failure {
+    let method = match args.method {
+        MethodName::Rays => "rays",
+        MethodName::Debye => "debye",
+        MethodName::Mie => "mie",
+        MethodName::Tmatrix => "tmatrix",
+    };
+    usage(format!(
+        "--method {method}: layers, profiles and films are solved by --method mie, for spheres; rays, Debye \
+         terms and the T-matrix follow one index inside"
+    ))
+}
+
 fn positive(name: &str, value: Option<f64>) -> Result<Option<f64>> {
     match value {
         Some(v) if !(v.is_finite() && v > 0.0) => {
@@ -56,13 +73,16 @@ fn positive(name: &str, value: Option<f64>) -> Result<Option<f64>> {
     }
 }
 
-/// Any two of radius, wavelength and size parameter say the third; three must agree.
-fn size(args: &ScatterArgs) -> Result<Size> {
+/// Any two of radius, wavelength and size parameter say the third; three must agree. The wavelength is the one
+/// in the particle's surroundings.
+fn size(args: &ScatterArgs, medium: &Medium) -> Result<Size> {
     let diameter = positive("diameter-mm", args.diameter_mm)?;
     let radius = positive("radius-um", args.radius_um)?.or(diameter.map(|d| 500.0 * d));
     let wavelength = positive("wavelength-nm", args.wavelength_nm)?
         .map(|nm| nm * 1e-9)
-        .or(positive("frequency-ghz", args.frequency_ghz)?.map(wavelength_of_ghz));
+        .or(positive("frequency-ghz", args.frequency_ghz)?.map(wavelength_of_ghz))
+        .map(|vacuum| medium.seen_outside(vacuum))
+        .transpose()?;
     let parameter = positive("size-parameter", args.size_parameter)?;
     Size::of(radius.map(|um| um * 1e-6), wavelength, parameter).map_err(|conflict| match conflict {
         SizeConflict::Disagree { radius, wavelength, parameter, implied } => usage(format!(
@@ -114,7 +134,8 @@ fn check_flags(args: &ScatterArgs) -> Result<()> {
 
 fn job(args: &ScatterArgs) -> Result<Job> {
     check_flags(args)?;
-    let size = size(args)?;
+    let medium = args.made_of.medium(args.index)?;
+    let size = size(args, &medium)?;
     if !(args.tolerance > 0.0 && args.tolerance < 1.0) {
         return Err(usage(format!(
             "--tolerance {}: a number between 0 and 1 is accepted",
@@ -129,25 +150,54 @@ fn job(args: &ScatterArgs) -> Result<Job> {
             return Err(usage(format!("--{name} {value}: -{limit} to {limit} is accepted")));
         }
     }
-    let index = match (args.index, size.wavelength) {
-        (Some(Index(index)), _) => index,
-        (None, Some(wavelength)) => water_index(wavelength)?,
-        (None, None) => {
-            let message =
-                "the index of water needs --wavelength-nm (or --radius-um); or give --index";
-            return Err(usage(message));
-        }
-    };
+    let Seen { light, radius, vacuum } = seen(args, &size, &medium)?;
+    let body = medium.body(light.wavelength, radius)?;
     let terms = parse_orders(&args.orders).map_err(usage)?;
     let theta_deg = scattering_angles(&args.theta).map_err(usage)?;
     let request = Request {
         size_parameter: size.parameter,
-        index,
+        index: light.index,
         theta: theta_deg.iter().map(|t| t.to_radians()).collect(),
         azimuth: args.azimuth_deg.to_radians(),
         tolerance: args.tolerance,
     };
-    Ok(Job { request, radius: size.radius, theta_deg, terms })
+    let outside = vacuum / light.wavelength;
+    Ok(Job { request, outside, body, radius: size.radius, theta_deg, terms })
+}
+
+/// The particle's light, with the radius (metres) that goes with it.
+struct Seen {
+    light: Light,
+    radius: f64,
+    /// Wavelength, metres.
+    vacuum: f64,
+}
+
+/// Where a size parameter alone is given, and nothing depends on the wavelength, any radius will do.
+fn seen(args: &ScatterArgs, size: &Size, medium: &Medium) -> Result<Seen> {
+    let (radius, wavelength) = match (size.radius, size.wavelength) {
+        (Some(radius), Some(wavelength)) => (radius, wavelength),
+        _ if medium.valid_range() == (0.0, f64::INFINITY) && args.made_of.coating.is_none() => {
+            (USUAL_RADIUS, TAU * USUAL_RADIUS / size.parameter)
+        }
+        _ => {
+            if args.made_of.coating.is_some() {
+                let message = "--coating: films have a thickness in the particle's size: give --radius-um, or \
+                               --wavelength-nm";
+                return Err(usage(message));
+            }
+            let plain = args.made_of.medium.is_none() && args.made_of.outside.is_none();
+            let name = if plain { "water".into() } else { medium.name() };
+            return Err(usage(format!(
+                "the index of {name} needs --wavelength-nm (or --radius-um); or give --index"
+            )));
+        }
+    };
+    let vacuum = medium.vacuum(wavelength)?;
+    check_outside(medium, vacuum, radius)?;
+    let light = medium.light_at_surface(vacuum, radius)?;
+    // As it was given, to the last digit.
+    Ok(Seen { light: Light { wavelength, ..light }, radius, vacuum })
 }
 
 fn sphere_only(args: &ScatterArgs) -> Result<()> {

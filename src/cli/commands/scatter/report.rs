@@ -62,7 +62,8 @@ pub(super) fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds:
     let by_theta = |worth: &ErrorEstimate| -> Vec<f64> {
         job.request.theta.iter().map(|&theta| worth.at(theta)).collect()
     };
-    json!({
+    let absolute = job.request.index * job.outside;
+    let mut value = json!({
         "method": match args.method {
             MethodName::Rays => "rays",
             MethodName::Mie => "mie",
@@ -70,7 +71,7 @@ pub(super) fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds:
             MethodName::Tmatrix => "tmatrix",
         },
         "size_parameter": job.request.size_parameter,
-        "index": [job.request.index.re, job.request.index.im],
+        "index": [absolute.re, absolute.im],
         "azimuth_deg": args.azimuth_deg,
         "theta_deg": job.theta_deg,
         "s1": pairs(|s| s.s1),
@@ -89,12 +90,17 @@ pub(super) fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds:
         "remainder": seen.remainder.map(|left| left.largest),
         "remainder_share": seen.remainder.map(|left| left.share),
         "seconds": seconds,
-    })
+    });
+    if args.made_of.outside.is_some() {
+        value["relative_index"] = json!([job.request.index.re, job.request.index.im]);
+    }
+    value
 }
 
 pub(super) fn print_table(job: &Job, seen: &Scattering) {
     let Request { size_parameter, index, .. } = job.request;
-    println!("# size parameter {size_parameter}, index {}+{}i", index.re, index.im);
+    let relative = if job.outside == 1.0 { "" } else { " relative to the outside" };
+    println!("# size parameter {size_parameter}, index {}+{}i{relative}", index.re, index.im);
     println!("# theta_deg  S1  S2  S3  S4  S11");
     for (theta, s) in job.theta_deg.iter().zip(&seen.amplitudes) {
         let s11 = s.s11();

@@ -1,13 +1,15 @@
 //! `gonio rays`: ray paths and deviation of one order in the vertical symmetry plane.
 
-use crate::cli::args::particle::{
-    Index, ShapeFlags, ShapeKind, parse_index, raindrop_model, water_index,
-};
+mod radial;
+
+use crate::cli::args::medium::MediumFlags;
+use crate::cli::args::particle::{Index, ShapeFlags, ShapeKind, parse_index, raindrop_model};
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot::write_whole;
 use clap::Args;
+use gonio::medium::radial::Body;
 use gonio::medium::wavelength_of_ghz;
-use gonio::render::draw_ray_paths;
+use gonio::render::{DrawnRay, draw_ray_paths};
 use gonio::shape::Shape;
 use gonio::trace::{PlaneRay, Rainbow, SymmetryPlane, Tracer};
 use serde_json::json;
@@ -36,7 +38,9 @@ pub struct RaysArgs {
     /// Index n or n+k; without it, water at --wavelength-nm
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true)]
     index: Option<Index>,
-    /// Wavelength of water's index (default 589.3)
+    #[command(flatten)]
+    made_of: MediumFlags,
+    /// Wavelength in vacuum of the medium's index (default 589.3)
     #[arg(long, conflicts_with = "index")]
     wavelength_nm: Option<f64>,
     /// Frequency in place of the wavelength
@@ -72,10 +76,7 @@ fn wavelength(args: &RaysArgs) -> Result<f64> {
 
 pub fn run(args: RaysArgs) -> Result<()> {
     let shape = shape(&args)?;
-    let index = match args.index {
-        Some(Index(index)) => index,
-        None => water_index(wavelength(&args)?)?,
-    };
+    let medium = args.made_of.medium(args.index)?;
     if !(2..=MOST_RAYS).contains(&args.count) {
         let message = format!("--count {}: 2 to {MOST_RAYS} is accepted", args.count);
         return Err(Failure::usage(message));
@@ -84,24 +85,62 @@ pub fn run(args: RaysArgs) -> Result<()> {
         let message = format!("--order {}: 0 to {HIGHEST_ORDER} is accepted", args.order);
         return Err(Failure::usage(message));
     }
-    let tracer = Tracer::new(&shape, index, 1.0, args.order);
+    let seen = medium.seen_outside(wavelength(&args)?)?;
+    if let Some(body) = medium.body(seen, args.radius_mm * 1e-3)? {
+        return in_radial(&args, &shape, &body);
+    }
+    let tracer = Tracer::new(&shape, medium.index(seen)?, 1.0, args.order);
     let plane = SymmetryPlane::new(&shape, &tracer, args.order);
     let (rays, rainbows) = (plane.fan(args.count), plane.rainbows());
     if let Some(path) = &args.output {
-        write_whole(path, draw_ray_paths(&shape, args.order, &rays, &rainbows).as_bytes())?;
+        let drawn: Vec<DrawnRay> = rays.iter().map(drawn).collect();
+        write_whole(path, draw_ray_paths(&shape, args.order, &drawn, &rainbows).as_bytes())?;
     }
     if args.json {
         println!("{}", to_json(&rays, &rainbows));
     } else {
         for bow in &rainbows {
             let degrees = bow.deviation.to_degrees();
-            println!("rainbow at {degrees:.4}° ({} branch), impact {:.6}", branch(bow), bow.impact);
+            println!(
+                "rainbow at {degrees:.4}° ({} branch), impact {:.6}",
+                bow.branch(),
+                bow.impact
+            );
         }
         println!("# impact  deviation_deg  optical_path  focal_lines");
         for ray in &rays {
             let (degrees, exit) = (ray.exit.scattering_angle().to_degrees(), &ray.exit);
             println!("{:9.6} {degrees:10.5} {:12.8} {}", ray.impact, exit.path, exit.focal_lines);
         }
+    }
+    Ok(())
+}
+
+fn drawn(ray: &PlaneRay) -> DrawnRay {
+    let direction = ray.exit.direction;
+    DrawnRay { points: ray.points.clone(), leaves: Some([direction.x, direction.z]) }
+}
+
+/// Rays of a sphere whose index varies along the radius.
+fn in_radial(args: &RaysArgs, shape: &Shape, body: &Body) -> Result<()> {
+    if args.shape != ShapeKind::Sphere {
+        return Err(Failure::usage("--medium: layers, profiles and films are for --shape sphere"));
+    }
+    if !body.layers.is_empty() {
+        return Err(Failure::usage(
+            "--medium, --coating: rays follow smooth profiles; at the interfaces of layers and films they \
+             would split, and gonio scatter --method mie solves those",
+        ));
+    }
+    let traced = radial::trace(body, args.order, args.count);
+    if let Some(path) = &args.output {
+        let svg = draw_ray_paths(shape, args.order, &traced.drawn(), &traced.rainbows);
+        write_whole(path, svg.as_bytes())?;
+    }
+    if args.json {
+        println!("{}", traced.json());
+    } else {
+        traced.print();
     }
     Ok(())
 }
@@ -130,10 +169,6 @@ fn shape(args: &RaysArgs) -> Result<Shape> {
     })
 }
 
-fn branch(bow: &Rainbow) -> &'static str {
-    if bow.impact >= 0.0 { "upper" } else { "lower" }
-}
-
 fn to_json(rays: &[PlaneRay], rainbows: &[Rainbow]) -> serde_json::Value {
     let ray = |r: &PlaneRay| {
         json!({
@@ -147,7 +182,7 @@ fn to_json(rays: &[PlaneRay], rainbows: &[Rainbow]) -> serde_json::Value {
         json!({
             "impact": b.impact,
             "deviation_deg": b.deviation.to_degrees(),
-            "branch": branch(b),
+            "branch": b.branch(),
         })
     };
     json!({
