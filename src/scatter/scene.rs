@@ -1,8 +1,8 @@
 //! One particle of a scene in chosen directions, by the method that the scene's plan chooses.
 
 use super::{
-    DebyeTerms, RayDiffraction, RayRequest, Request, ScatterError, Scattering, debye, lorenz_mie,
-    rays, t_matrix,
+    DebyeTerms, RayDiffraction, RayRequest, Request, ScatterError, Scattering, debye, layered,
+    lorenz_mie, rays, t_matrix,
 };
 use crate::plan::{Engine, Plan};
 use crate::scene::{Diffraction, Orders, Orientation, Scene};
@@ -36,10 +36,12 @@ pub fn of_scene(
     }
     let one = Scene { wavelengths: vec![wavelength], ..scene.clone() };
     let plan = Plan::new(&one)?;
-    let index = scene.medium.index(wavelength)?;
+    // the wavelength and the index that the surroundings leave
+    let light = plan.light(scene, wavelength)?;
+    let body = scene.medium.body(light.wavelength, plan.radius)?;
     let request = Request {
-        size_parameter: TAU * plan.radius / wavelength,
-        index,
+        size_parameter: TAU * plan.radius / light.wavelength,
+        index: light.index,
         theta: theta.to_vec(),
         azimuth,
         tolerance: scene.tolerance,
@@ -49,7 +51,10 @@ pub fn of_scene(
         Orders::List(orders) => Some(orders.clone()),
     };
     let seen = match plan.engine {
-        Engine::LorenzMie => lorenz_mie(&request)?,
+        Engine::LorenzMie => match &body {
+            Some(body) => layered(&request, body)?,
+            None => lorenz_mie(&request)?,
+        },
         Engine::Debye => debye(&request, &DebyeTerms { orders, diffraction: false })?,
         Engine::TMatrix => t_matrix(&request, &plan.shape)?,
         Engine::Meridians | Engine::Patches => {
@@ -83,13 +88,36 @@ mod tests {
     fn engines_are_the_plans() {
         let of = |text: &str| of_scene(&scene(text), 550e-9, &[0.5, 1.0], 0.3).map(|seen| seen.1);
         let particle = "[particle]\nradius_um = 20\n";
-        assert_eq!(of(&format!("{particle}shape = 'sphere'")).unwrap(), Engine::LorenzMie);
+        let auto = format!("{particle}shape = 'sphere'\n[model]\nmethod = 'auto'");
+        assert_eq!(of(&auto).unwrap(), Engine::LorenzMie);
         let debye = format!("{particle}shape = 'sphere'\n[model]\nmethod = 'debye'\norders = [2]");
         assert_eq!(of(&debye).unwrap(), Engine::Debye);
         let rays = format!("{particle}shape = 'sphere'\n[model]\nmethod = 'rays'");
         assert_eq!(of(&rays).unwrap(), Engine::Meridians);
+        // the built-in scene is one by rays
+        assert_eq!(of(&format!("{particle}shape = 'sphere'")).unwrap(), Engine::Meridians);
         let many = "[particle]\nshape = 'sphere'\nsize_distribution = { kind = 'gamma', \
-                    effective_radius_um = 5, effective_variance = 0.1 }";
+                    effective_radius_um = 5, effective_variance = 0.1 }\n[model]\nmethod = 'mie'";
         assert!(matches!(of(many), Err(ScatterError::Several)));
+    }
+
+    /// A bubble is seen at the wavelength in its water and by the index relative to it; a sphere of equal layers is one.
+    #[test]
+    fn surroundings_and_layers_are_those_of_the_scene() {
+        let of = |medium: &str, more: &str| {
+            let text = format!(
+                "[particle]\nshape = 'sphere'\nradius_um = 10\nmedium = {medium}\n{more}\n[model]\nmethod = 'mie'"
+            );
+            of_scene(&scene(&text), 650e-9, &[0.5, 1.0], 0.0).unwrap().0
+        };
+        let bubble = of("{ index = 1.0 }", "outside = { index = 1.33167 }");
+        assert!((bubble.efficiencies.q_ext - 1.967060831).abs() < 1e-6);
+        let one = of("{ index = [1.33, 1e-3] }", "");
+        let layers = "{ layers = [{ radius_fraction = 0.5, medium = { index = [1.33, 1e-3] } }, \
+                      { medium = { index = [1.33, 1e-3] } }] }";
+        let layered = of(layers, "");
+        for (a, b) in one.amplitudes.iter().zip(&layered.amplitudes) {
+            assert!((a.s1 - b.s1).norm() < 1e-9 * a.s1.norm());
+        }
     }
 }

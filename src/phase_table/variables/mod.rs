@@ -15,7 +15,9 @@
 //!     [light]
 //!     wavelengths_nm = [550]
 //!     [table]
-//!     theta_deg = [0, 90, 180]")?;
+//!     theta_deg = [0, 90, 180]
+//!     [model]
+//!     method = 'mie'")?;
 //! let table = simulate::table(&Scene::built_in(&keys)?)?;
 //! let mut describer = Describer::new(&table.header);
 //! describer.add(0, &table.slabs[0]);

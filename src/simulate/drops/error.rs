@@ -87,7 +87,7 @@ mod tests {
         // what rays miss beside an order's edge is stated however many sizes there are
         let by = crate::farfield::assignment::Thresholds::MEASURED;
         let stated = none.and(|theta| by.doubt_of_powers(1000.0, theta));
-        assert_eq!((stated.by_direction[20], stated.by_direction[10]), (0.13, 0.015));
-        assert!(stated.by_band > 0.07 && stated.weighted == 0.015);
+        assert_eq!((stated.by_direction[20], stated.by_direction[10]), by.error_of_powers.into());
+        assert!(stated.by_band > 0.025 && stated.weighted == 0.015);
     }
 }
