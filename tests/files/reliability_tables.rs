@@ -83,6 +83,7 @@ fn gonio(folder: &Path, arguments: &[&str]) -> Command {
 
 const SHARD: [&str; 6] = ["batch", "shard", "--plan", "plan.jsonl", "--slice", "0/1"];
 
+/// `GONIO_KILLS` sets how many runs are killed (40 unless told).
 #[test]
 fn kill_at_any_moment_leaves_a_whole_table_or_none() {
     let folder = tempfile::tempdir().unwrap();
@@ -98,7 +99,8 @@ fn kill_at_any_moment_leaves_a_whole_table_or_none() {
     let plan = gonio::batch::BatchPlan::read(&folder.path().join("plan.jsonl")).unwrap();
     let shards = folder.path().join("rough");
     let (mut state, mut done, mut finished) = (3, Vec::new(), 0);
-    for _ in 0..100 {
+    let kills = std::env::var("GONIO_KILLS").map_or(40, |count| count.parse().unwrap());
+    for _ in 0..kills {
         let mut child = gonio(folder.path(), &[&run[..], &["rough"]].concat()).spawn().unwrap();
         sleep(Duration::from_micros(noise(&mut state) % longest));
         let _ = child.kill();
@@ -115,7 +117,7 @@ fn kill_at_any_moment_leaves_a_whole_table_or_none() {
             done.clear();
         }
     }
-    println!("{finished} tables were finished during 100 killed runs");
+    println!("{finished} tables were finished during {kills} killed runs");
     assert!(finished > 0, "every run was killed before it ended a table");
     assert!(gonio(folder.path(), &[&run[..], &["rough"]].concat()).status().unwrap().success());
     for table in &plan.tables {

@@ -4,7 +4,7 @@
 //! what the table states.
 //!
 //! Scenes are made from a seed, so that any of them can be had again; a failure prints its TOML.
-//! `GONIO_RANDOM_SCENES` sets how many (2000 unless told), `GONIO_RANDOM_SECONDS` for how long at most,
+//! `GONIO_RANDOM_SCENES` sets how many (1000 unless told), `GONIO_RANDOM_SECONDS` for how long at most,
 //! `GONIO_RANDOM_SEED` where they begin; `GONIO_RANDOM_REPORT` prints what became of them. What was run is in `validation/engine.md`.
 
 use gonio::phase_table::PhaseTable;
@@ -82,7 +82,7 @@ fn setting(name: &str, default: u64) -> u64 {
 
 #[test]
 fn random_scenes_end_with_a_sound_table_or_a_refusal() {
-    let (count, seed) = (setting("GONIO_RANDOM_SCENES", 2000), setting("GONIO_RANDOM_SEED", 1));
+    let (count, seed) = (setting("GONIO_RANDOM_SCENES", 1000), setting("GONIO_RANDOM_SEED", 1));
     let report = std::env::var_os("GONIO_RANDOM_REPORT").is_some();
     let (mut outcomes, mut faults) = (BTreeMap::<String, (u64, f64)>::new(), Vec::new());
     let mut slowest = (0.0, 0);
