@@ -106,9 +106,9 @@ pub fn taper(
     /// Distance from the axis at which rays are clear of it, in gaps.
     const AXIS_GAPS: f64 = 1.25;
     let axial = rim != Rim::Uneven;
-    // seen along its axis a flattened body looks round, but its rays near the rim are not a sphere's
+    // order 1 has no bow before its last ray: what little is odd in the grazing angle would decide beyond the rim
     let serves = by.near_grazing_serves(index, order, axial, caustic_disorder)
-        && (order > 1 || rim != Rim::Axial);
+        && (order > 1 || rim == Rim::Sphere);
     let b = central_impact(index, order, size_parameter).filter(|b| serves && *b > 0.0)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);

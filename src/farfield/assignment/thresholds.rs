@@ -78,10 +78,10 @@ pub struct Thresholds {
     /// The first order whose plain segments have fewer knots: weaker than those before.
     pub first_sparse_order: u32,
 
-    /// Orders that a near-grazing integral serves from on, where the body is round (a sphere, for order 1), and all but one where it is nearly
-    /// so. On other particles from [`Thresholds::first_high_order`] on: there the secondary bow's wave changes too fast
-    /// with azimuth to be interpolated, penumbras of low orders from continued polynomials are not reciprocal, and two
-    /// rays serve nearly as well.
+    /// Orders that a near-grazing integral serves from on, where the body is a sphere; order 1 only there, and where it
+    /// is nearly round all others but one. On other particles from [`Thresholds::first_high_order`] on: there the
+    /// secondary bow's wave changes too fast with azimuth to be interpolated, penumbras of low orders from continued
+    /// polynomials are not reciprocal, and two rays serve nearly as well.
     pub first_near_grazing_order: u32,
     /// The order that it does not serve on nearly round bodies: its penumbra reaches to the axis, where only waves that
     /// do not depend on azimuth can be added up.

@@ -328,9 +328,7 @@ fn rim_layout(
     let rim = Rim::of(tracer);
     let rotational = rim != Rim::Uneven;
     let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rim)?;
-    // The wave of order 1 beyond the rim is that of its last ray alone, without a bow before it: what little is odd
-    // in the grazing angle would decide there.
-    let round = rotational || order > 1 && caustic_disorder < by.nearly_round;
+    let round = rotational || caustic_disorder < by.nearly_round;
     Some(NearGrazingLayout::new(marks, rotational, round))
 }
 

@@ -31,7 +31,8 @@ pub(in crate::scene) fn medium_of(
             return Err(SceneError::invalid(KEY, index, accepted));
         }
         if (index - 1.0).norm() < 1e-9 && medium.radial().is_none() {
-            let accepted = "an index of 1, relative to what is outside, scatters no light";
+            let accepted =
+                "an index of 1 scatters no light (it counts relative to what is outside)";
             return Err(SceneError::invalid(KEY, index, accepted));
         }
     }
