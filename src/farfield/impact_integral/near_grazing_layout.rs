@@ -29,9 +29,10 @@ pub struct NearGrazingLayout {
 }
 
 /// Most knots of a plane: more are only asked for between angles that are not to be trusted. One plane that stands for
-/// all may have more, up to x of 20 000 of order 2.
+/// all may have more, up to a size parameter; the time of its integrals grows like the square of that.
 const MOST: f64 = 1500.0;
-const MOST_OF_ONE_PLANE: f64 = 10_000.0;
+const MOST_OF_ONE_PLANE: f64 = 5000.0;
+const LARGEST_OF_ONE_PLANE: f64 = 20_000.0;
 /// Knots per period of the wave against its reference.
 const KNOTS_PER_PERIOD: f64 = 4.0;
 
@@ -127,7 +128,8 @@ impl NearGrazingLayout {
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
         let spare = 0.1 * caustic_disorder + zone + x.powf(-2.0 / 3.0);
         let stretch = [begin, start, bow_at, bow_at + dark];
-        let most = if self.rotational { MOST_OF_ONE_PLANE } else { MOST };
+        let one = self.rotational && x <= LARGEST_OF_ONE_PLANE;
+        let most = if one { MOST_OF_ONE_PLANE } else { MOST };
         let all = knots(stretch, sense, [self.start, self.bow], spare, [x, most])?;
         self.knots = if self.rotational {
             between_axes(&all, marks[0].anchor, axis_gap)
