@@ -11,6 +11,8 @@
 //! assert_eq!((error.fault(), error.exit_code()), (Fault::Input, 2));
 //! ```
 
+use std::error::Error;
+
 /// Who is to blame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
@@ -21,7 +23,7 @@ pub enum Fault {
 }
 
 /// Errors that know whose fault they are.
-pub trait Blame: std::error::Error {
+pub trait Blame: Error {
     /// Whether the input or the run is at fault.
     fn fault(&self) -> Fault;
 
@@ -39,6 +41,29 @@ pub trait Blame: std::error::Error {
 pub const FAILED: u8 = 1;
 /// Exit code: the input was wrong (clap's own, too).
 pub const WRONG_INPUT: u8 = 2;
+
+/// The error and its causes as one line, without those that the message tells already.
+///
+/// ```
+/// #[derive(Debug, thiserror::Error)]
+/// #[error("cannot read t.h5")]
+/// struct Unread(#[source] std::io::Error);
+///
+/// let error = Unread(std::io::Error::other("disk"));
+/// assert_eq!(gonio::fault::in_words(&error), "cannot read t.h5: disk");
+/// ```
+pub fn in_words(error: &dyn Error) -> String {
+    let mut told = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let words = error.to_string();
+        if !told.contains(&words) {
+            told = format!("{told}: {words}");
+        }
+        cause = error.source();
+    }
+    told
+}
 
 impl Blame for std::io::Error {
     fn fault(&self) -> Fault {

@@ -1,7 +1,6 @@
 //! Why a command ends: words for people, an exit code for programs.
 
-use gonio::fault::{Blame, FAILED, WRONG_INPUT};
-use std::error::Error;
+use gonio::fault::{Blame, FAILED, WRONG_INPUT, in_words};
 use std::fmt::Display;
 
 /// What a command returns.
@@ -46,20 +45,6 @@ impl<E: Blame> From<E> for Failure {
     fn from(error: E) -> Self {
         Self { words: in_words(&error), code: error.exit_code() }
     }
-}
-
-/// The error and its causes, without those that the message tells already.
-fn in_words(error: &dyn Error) -> String {
-    let mut told = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        let words = error.to_string();
-        if !told.contains(&words) {
-            told = format!("{told}: {words}");
-        }
-        cause = error.source();
-    }
-    told
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Rain as a radar sees it: reflectivities, phases and attenuations of drops, by their T-matrices.
 //!
 //! [`DropSpectrum`] says how many drops of a size there are, [`DropShape`] how they are shaped, [`Rain`] what they
-//! are made of and how their axes waver; [`Rain::measure`] adds up what a [`Beam`] gets back.
+//! are made of and how their axes waver; [`Rain::measure`] adds up what a [`Beam`] gets back. [`Observation`] asks for
+//! many wavelengths, temperatures and drops at once.
 //!
 //! ```
 //! use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
@@ -21,17 +22,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod asked;
 mod drop_shape;
+mod observation;
 mod rain;
 mod spectrum;
 mod sums;
 
 pub use crate::shape::AxisRatioLaw;
+pub use asked::{BANDS, Drops, ObservationError, Water, band, number};
 pub use drop_shape::DropShape;
+pub use observation::{Observation, Row};
 pub use rain::{Beam, RadarError, Rain};
 pub use spectrum::DropSpectrum;
 pub use sums::{RadarQuantities, RadarSums};
-
-/// A radar band: its letters and the frequency that stands for it, GHz.
-pub const BANDS: [(&str, f64); 6] =
-    [("S", 2.8), ("C", 5.6), ("X", 9.4), ("Ku", 13.6), ("Ka", 35.5), ("W", 94.0)];

@@ -80,7 +80,9 @@ impl Rain {
             .par_iter()
             .filter(|drop| weight(drop) >= FAINT * most)
             .map(|&(diameter, number)| self.sums(beam, diameter, number))
-            .try_reduce(RadarSums::default, |a, b| Ok(a.with(&b)))?;
+            .collect::<Result<Vec<_>, RadarError>>()?;
+        // in the order of the drops, whatever the number of threads
+        let sums = sums.iter().fold(RadarSums::default(), |sum, one| sum.with(one));
         Ok(sums.quantities(beam.wavelength, beam.dielectric_factor))
     }
 

@@ -1,7 +1,7 @@
 """Lorenz–Mie beside scatrs and miepython, in one run and in turns: the best of several counts.
 
-    .tools/wheel/bin/python -m pip install "scatrs==0.3.*" miepython numba
-    MIEPYTHON_USE_JIT=1 .tools/wheel/bin/python bindings/python/benches/speed.py
+    .tools/wheel-3.11/bin/python -m pip install "scatrs==0.3.*" miepython numba
+    MIEPYTHON_USE_JIT=1 .tools/wheel-3.11/bin/python bindings/python/benches/speed.py
 
 Processor time of one call, so that other load on the machine hurts all alike; all on one thread.
 """

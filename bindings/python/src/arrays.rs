@@ -23,8 +23,8 @@ where
     }
 }
 
-/// The shape that two shapes broadcast to.
-pub fn common_shape(a: &[usize], b: &[usize]) -> PyResult<Vec<usize>> {
+/// The shape that those of two arguments broadcast to.
+pub fn common_shape(names: [&str; 2], a: &[usize], b: &[usize]) -> PyResult<Vec<usize>> {
     let count = a.len().max(b.len());
     let length =
         |shape: &[usize], k: usize| (k + shape.len()).checked_sub(count).map_or(1, |i| shape[i]);
@@ -33,8 +33,9 @@ pub fn common_shape(a: &[usize], b: &[usize]) -> PyResult<Vec<usize>> {
             (n, m) if n == m => Ok(n),
             (1, n) | (n, 1) => Ok(n),
             _ => Err(PyValueError::new_err(format!(
-                "x and m do not broadcast: their shapes are {a:?} and {b:?}; accepted are equal lengths, or 1, \
-                 along each dimension from the last"
+                "{} and {} do not broadcast: their shapes are {a:?} and {b:?}; accepted are equal lengths, or 1, \
+                 along each dimension from the last",
+                names[0], names[1]
             ))),
         })
         .collect()

@@ -1,10 +1,9 @@
 //! Errors of the library as exceptions with the same words: wrong input is a `ValueError`, what fails while
 //! running a `RuntimeError`.
 
-use gonio::fault::{Blame, Fault};
+use gonio::fault::{Blame, Fault, in_words};
 use pyo3::PyErr;
 use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
-use std::error::Error;
 use std::fmt::Display;
 
 /// The exception of an error.
@@ -26,18 +25,4 @@ pub fn too_large(values: usize) -> PyErr {
     PyMemoryError::new_err(format!(
         "no memory for {values} complex values: take fewer angles or fewer particles at once"
     ))
-}
-
-/// The error and its causes, without those that the message tells already.
-fn in_words(error: &dyn Error) -> String {
-    let mut told = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        let words = error.to_string();
-        if !told.contains(&words) {
-            told = format!("{told}: {words}");
-        }
-        cause = error.source();
-    }
-    told
 }

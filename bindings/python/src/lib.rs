@@ -6,8 +6,10 @@ mod colours;
 mod errors;
 mod job;
 mod media;
+mod radar;
 mod scenes;
 mod spheres;
+mod tmatrix;
 
 use pyo3::prelude::*;
 
@@ -23,9 +25,13 @@ mod _gonio {
     #[pymodule_export]
     use super::media::{Medium, media};
     #[pymodule_export]
+    use super::radar::radar;
+    #[pymodule_export]
     use super::scenes::Scene;
     #[pymodule_export]
     use super::spheres::{debye_amplitudes, mie_amplitudes, mie_efficiencies, mie_legendre};
+    #[pymodule_export]
+    use super::tmatrix::{RandomMean, TMatrix};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -38,7 +38,7 @@ impl Spheres {
     fn new(x: &Bound<'_, PyAny>, m: &Bound<'_, PyAny>) -> PyResult<Self> {
         let x: ArrayD<f64> = array(x, "x", SIZES)?;
         let m: ArrayD<Complex64> = array(m, "m", INDICES)?;
-        let shape = common_shape(x.shape(), m.shape())?;
+        let shape = common_shape(["x", "m"], x.shape(), m.shape())?;
         let count = shape.iter().try_fold(1usize, |product, &n| product.checked_mul(n));
         let count = count.ok_or_else(|| too_large(usize::MAX))?;
         let mut pairs = Vec::new();

@@ -11,8 +11,8 @@ import pytest
 
 import gonio
 
-MODULES = ["gonio", "gonio.mie", "gonio.debye", "gonio.particles", "gonio._datasets", "gonio._batch", "gonio._lee",
-           "gonio._material", "gonio._accessor"]
+MODULES = ["gonio", "gonio.mie", "gonio.debye", "gonio.tmatrix", "gonio.particles", "gonio._datasets", "gonio._batch",
+           "gonio._lee", "gonio._material", "gonio._radar", "gonio._accessor"]
 HERE = Path(__file__).parent
 
 

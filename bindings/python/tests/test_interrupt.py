@@ -12,6 +12,7 @@ import pytest
 CALLS = {
     "rays": "gonio.table(gonio.Raindrop(radius_mm=1.0))",
     "tmatrix": "gonio.table(gonio.Spheroid(radius_um=4, axis_ratio=0.8), model={'method': 'tmatrix'})",
+    "radar": "gonio.radar(band='W', diameter_mm=np.linspace(4, 5, 100))",
     "many_sizes": "gonio.table(gonio.Sphere(size_distribution={'kind': 'gamma', 'effective_radius_um': 300, "
     "'effective_variance': 0.1}))",
     "lee": "gonio.lee(radius_mm=np.geomspace(0.1, 1, 200), theta_deg=np.linspace(120, 150, 100))",

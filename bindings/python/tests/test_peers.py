@@ -67,8 +67,52 @@ def test_pytmatrix():
     scatterer = tmatrix.Scatterer(radius=1.0, wavelength=2.0, m=1.5 + 0.01j, axis_ratio=1 / 0.8)
     scatterer.set_geometry((90.0, 90.0, 0.0, 180.0, 0.0, 0.0))
     s = scatterer.get_S()
-    drop = gonio.Spheroid(radius_um=1.0, axis_ratio=0.8, medium=1.5 + 0.01j)
-    seen = gonio.scatter(drop, wavelength_nm=2000, theta_deg=180.0, method="tmatrix", tolerance=1e-4)
     k = 2 * np.pi / 2.0
-    ours = abs(seen.s2.item()), abs(seen.s1.item())
-    assert sorted(ours) == pytest.approx(sorted((abs(s[0, 0]) * k, abs(s[1, 1]) * k)), rel=2e-3)
+    t = gonio.tmatrix.TMatrix(k, 1.5 + 0.01j, axis_ratio=0.8, tolerance=1e-4)
+    seen = t.amplitudes(theta_deg=180.0, azimuth_deg=90.0)
+    # vertical, horizontal
+    assert (abs(seen.s1), abs(seen.s2)) == pytest.approx((abs(s[0, 0]) * k, abs(s[1, 1]) * k), rel=2e-3)
+
+
+def test_pytmatrix_radar():
+    tmatrix = pytest.importorskip("pytmatrix.tmatrix", exc_type=ImportError)
+    from pytmatrix import radar, tmatrix_aux
+
+    index, ratio = 8.0 + 2.0j, 0.7
+    scatterer = tmatrix.Scatterer(radius=2.0, wavelength=30.0, m=index, axis_ratio=1 / ratio)
+    scatterer.set_geometry(tmatrix_aux.geom_horiz_back)
+    z, z_dr = radar.refl(scatterer), 10 * np.log10(radar.Zdr(scatterer))
+    scatterer.set_geometry(tmatrix_aux.geom_horiz_forw)
+    k_dp, a_h = radar.Kdp(scatterer), radar.Ai(scatterer)
+    seen = gonio.radar(
+        wavelength_mm=30.0, diameter_mm=4.0, index=index, shape="spheroid", axis_ratio=ratio, tolerance=1e-4
+    ).squeeze()
+    assert float(seen.z_h) == pytest.approx(z, rel=2e-3)
+    assert float(seen.z_dr) == pytest.approx(z_dr, abs=5e-3)
+    assert (float(seen.k_dp), float(seen.a_h)) == pytest.approx((k_dp, a_h), rel=2e-3)
+
+
+def test_pytmatrix_spectrum():
+    tmatrix = pytest.importorskip("pytmatrix.tmatrix", exc_type=ImportError)
+    from pytmatrix import orientation, psd, radar, tmatrix_aux
+
+    index = 8.601 + 1.687j
+    scatterer = tmatrix.Scatterer(wavelength=53.5, m=index)
+    scatterer.psd_integrator = psd.PSDIntegrator()
+    scatterer.psd_integrator.axis_ratio_func = lambda d: 1 / tmatrix_aux.dsr_thurai_2007(d)
+    scatterer.psd_integrator.D_max = 6.0
+    scatterer.psd_integrator.num_points = 128
+    scatterer.psd_integrator.geometries = (tmatrix_aux.geom_horiz_back, tmatrix_aux.geom_horiz_forw)
+    scatterer.or_pdf = orientation.gaussian_pdf(20.0)
+    scatterer.orient = orientation.orient_averaged_fixed
+    scatterer.psd_integrator.init_scatter_table(scatterer)
+    scatterer.psd = psd.GammaPSD(D0=2.0, Nw=1e3, mu=4)
+    z, z_dr, rho = radar.refl(scatterer), 10 * np.log10(radar.Zdr(scatterer)), radar.rho_hv(scatterer)
+    scatterer.set_geometry(tmatrix_aux.geom_horiz_forw)
+    k_dp = radar.Kdp(scatterer)
+    seen = gonio.radar(
+        wavelength_mm=53.5, index=index, normalised_gamma=(1e3, 2.0, 4), shape="spheroid", canting_deg=20,
+        from_diameter_mm=0, to_diameter_mm=6,
+    ).squeeze()
+    assert (float(seen.z_h), float(seen.k_dp)) == pytest.approx((z, k_dp), rel=2e-3)
+    assert float(seen.z_dr) == pytest.approx(z_dr, abs=5e-3) and float(seen.rho_hv) == pytest.approx(rho, abs=5e-4)

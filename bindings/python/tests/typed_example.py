@@ -26,3 +26,8 @@ assert_type(gonio.lee(radius_mm=[0.01], theta_deg=[138, 140], fineness=0.3), xr.
 assert_type(gonio.batch(drop, {"particle.radius_um": [1, 2]}, light={"wavelengths_nm": [550]}), xr.Dataset)
 assert_type(gonio.material("N-BK7").name, str)
 assert_type(gonio.media(), dict[str, str])
+assert_type(gonio.radar(band="X", diameter_mm=[1, 2]), xr.Dataset)
+t = gonio.tmatrix.TMatrix(2.0, 1.33 + 0.01j, axis_ratio=0.8)
+assert_type(t.amplitudes(theta_deg=[0, 90]).s1, NDArray[np.complex128])
+assert_type(t.efficiencies(), gonio.mie.Efficiencies)
+assert_type(t.random().scattering_matrix(theta_deg=0), NDArray[np.float64])

@@ -33,7 +33,7 @@ impl MicrowaveWater {
         [("water-liebe-1991", Self::Liebe1991), ("water-turner-2016", Self::Turner2016)];
 
     /// The model of a name in the library.
-    pub(in crate::medium) fn by_name(name: &str) -> Option<Self> {
+    pub fn by_name(name: &str) -> Option<Self> {
         Self::NAMES.iter().find(|entry| entry.0 == name).map(|entry| entry.1)
     }
 

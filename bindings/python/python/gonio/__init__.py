@@ -4,8 +4,9 @@ Everywhere: time factor exp(-iωt), refractive index n + ik with k ≥ 0 where l
 straight ahead; wavelengths in vacuum, units in the names of arguments (``radius_um``, ``wavelength_nm``,
 ``theta_deg``). Angles are keyword-only.
 
-Arrays for loops and fits come from :mod:`gonio.mie` and :mod:`gonio.debye`; xarray Datasets with units and
-provenance from :func:`gonio.table`, :func:`gonio.scatter`, :func:`gonio.lee` and :func:`gonio.batch`.
+Arrays for loops and fits come from :mod:`gonio.mie`, :mod:`gonio.debye` and :mod:`gonio.tmatrix`; xarray Datasets
+with units and provenance from :func:`gonio.table`, :func:`gonio.scatter`, :func:`gonio.radar`, :func:`gonio.lee` and
+:func:`gonio.batch`.
 
 Long calls run without the interpreter's lock on as many threads as their argument ``threads`` says, else the
 environment variable ``GONIO_THREADS``, else ``RAYON_NUM_THREADS``, else all cores. Ctrl-C stops them.
@@ -22,7 +23,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gonio import debye, mie
+from gonio import debye, mie, tmatrix
 from gonio._gonio import __version__
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from gonio._datasets import plan, scatter, table
     from gonio._lee import lee
     from gonio._material import Material, material, media
+    from gonio._radar import radar
     from gonio.particles import Particle, Raindrop, Sphere, Spheroid
 
 __all__ = [
@@ -46,14 +48,17 @@ __all__ = [
     "media",
     "mie",
     "plan",
+    "radar",
     "scatter",
     "table",
+    "tmatrix",
 ]
 
 #: Where the rest is, imported when it is first asked for: arrays come without waiting for it.
 _HOMES = {
     "batch": "_batch",
     "lee": "_lee",
+    "radar": "_radar",
     **dict.fromkeys(("plan", "scatter", "table"), "_datasets"),
     **dict.fromkeys(("Material", "material", "media"), "_material"),
     **dict.fromkeys(("Particle", "Raindrop", "Sphere", "Spheroid"), "particles"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+from gonio._numbers import numbers
 from gonio._progress import bar
 from gonio._scene import scene_of
 
@@ -202,17 +203,9 @@ def scatter(
 
     module = xarray()
 
-    def numbers(name: str, value: ArrayLike, low: float, high: float, accepted: str) -> Any:
-        array = np.atleast_1d(np.asarray(value, dtype=float))
-        if array.ndim != 1:
-            raise ValueError(f"{name} has {array.ndim} dimensions: a number or a list is accepted")
-        if not array.size or not np.all((array >= low) & (array <= high)):
-            raise ValueError(f"{name} = {value!r}: {accepted}")
-        return array
-
-    nm = numbers("wavelength_nm", wavelength_nm, 1.0, 1e9, "wavelengths from 1 to 1e9 nm are accepted")
-    theta = numbers("theta_deg", theta_deg, 0.0, 180.0, "scattering angles from 0 to 180 degrees are accepted")
-    phi = numbers("azimuth_deg", azimuth_deg, -360.0, 360.0, "azimuths from -360 to 360 degrees are accepted")
+    nm = numbers("wavelength_nm", wavelength_nm, (1.0, 1e9), "wavelengths from 1 to 1e9 nm are accepted")
+    theta = numbers("theta_deg", theta_deg, (0.0, 180.0), "scattering angles from 0 to 180 degrees are accepted")
+    phi = numbers("azimuth_deg", azimuth_deg, (-360.0, 360.0), "azimuths from -360 to 360 degrees are accepted")
     laid: dict[str, Any] = {
         "light": {"wavelengths_nm": sorted(set(nm.tolist())), "sun_elevation_deg": sun_elevation_deg},
         "model": {"method": method, "tolerance": tolerance},

@@ -35,6 +35,33 @@ class Medium:
     def abbe(self) -> tuple[float, float] | None: ...
     def index(self, wavelength_nm: Any) -> Any: ...
 
+class TMatrix:
+    def __init__(
+        self,
+        x: float,
+        m: complex,
+        *,
+        shape: str,
+        axis_ratio: str | None,
+        diameter_mm: float,
+        model: str | None,
+        tolerance: float,
+        threads: int | None,
+    ) -> None: ...
+    @property
+    def error(self) -> float: ...
+    @property
+    def solver(self) -> tuple[str, int]: ...
+    def amplitudes(self, theta_deg: Any, azimuth_deg: Any, elevation_deg: float) -> list[Any]: ...
+    def efficiencies(self, elevation_deg: float) -> list[float]: ...
+    def random(self, tolerance: float, threads: int | None) -> RandomMean: ...
+
+class RandomMean:
+    @property
+    def efficiencies(self) -> list[float]: ...
+    def coefficients(self) -> Any: ...
+    def elements(self, theta_deg: Any) -> Any: ...
+
 def media() -> list[tuple[str, str, str]]: ...
 def threads(threads: int | None = None) -> int: ...
 def mie_amplitudes(x: Any, m: Any, theta_deg: Any, threads: int | None = None) -> Any: ...
@@ -61,3 +88,29 @@ def lee(
 ) -> tuple[Any, Any, Any]: ...
 def colour_weights(wavelength_nm: list[float], illuminant: str, observer: str) -> Any: ...
 def srgb_of(xyz: Any, exposure: float) -> Any: ...
+def radar(
+    *,
+    band: list[str] | None,
+    frequency_ghz: list[float] | None,
+    wavelength_mm: list[float] | None,
+    temperature_c: list[float],
+    water: str,
+    index: complex | None,
+    diameter_mm: list[float] | None,
+    number_per_m3: list[float],
+    together: bool,
+    marshall_palmer_mm_h: float | None,
+    exponential: tuple[float, float] | None,
+    normalised_gamma: tuple[float, float, float] | None,
+    from_diameter_mm: float | None,
+    to_diameter_mm: float | None,
+    shape: str,
+    model: str | None,
+    axis_ratio: str | None,
+    canting_deg: float,
+    elevation_deg: float,
+    k_squared: float,
+    tolerance: float,
+    threads: int | None,
+    progress: Callable[[int], None] | None,
+) -> dict[str, Any]: ...

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from gonio import _gonio
 from gonio._datasets import xarray
+from gonio._numbers import numbers
 from gonio._progress import bar
 from gonio._scene import json_of
+from gonio.particles import in_keys
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -85,15 +87,10 @@ def lee(
     >>> diagram.srgb.shape
     (1, 3, 3)
     """
-    import numpy as np
-
     module = xarray()
-    radii = np.atleast_1d(np.asarray(radius_mm, dtype=float))
-    theta = np.atleast_1d(np.asarray(theta_deg, dtype=float))
-    if radii.ndim != 1 or theta.ndim != 1:
-        raise ValueError("radius_mm and theta_deg: a number or a list is accepted for each")
-    if isinstance(medium, (int, float, complex)):
-        medium = {"index": [complex(medium).real, complex(medium).imag]}
+    radii = numbers("radius_mm", radius_mm)
+    theta = numbers("theta_deg", theta_deg)
+    medium = in_keys(medium)
     with bar(len(radii), "radii", progress) as advance:
         parallel, perpendicular, srgb = _gonio.lee(
             radius_mm=radii.tolist(),

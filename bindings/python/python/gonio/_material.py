@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from gonio import _gonio
 from gonio._scene import json_of, tell
+from gonio.particles import in_keys
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -91,12 +92,8 @@ def material(medium: str | complex | Mapping[str, Any]) -> Material:
     >>> gonio.material({"cauchy": [1.5, 0.004]}).index([500.0, 1000.0]).real.round(3).tolist()
     [1.516, 1.504]
     """
-    if isinstance(medium, str):
-        inner = _gonio.Medium(name=medium)
-    elif isinstance(medium, (int, float, complex)):
-        inner = _gonio.Medium(json=json_of({"index": [complex(medium).real, complex(medium).imag]}))
-    else:
-        inner = _gonio.Medium(json=json_of(medium))
+    known = in_keys(medium)
+    inner = _gonio.Medium(name=known) if isinstance(known, str) else _gonio.Medium(json=json_of(known))
     tell(inner.notes)
     return Material(inner)
 

@@ -7,7 +7,7 @@ A size is one of ``radius_um``, ``radius_mm``, ``diameter_mm``, or a ``size_dist
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, fields
 from typing import Any, ClassVar, Literal
 
@@ -33,6 +33,8 @@ class Particle:
         Temperature of water and sea water.
     density_kg_m3 : float, optional
         Density, where the library does not know it.
+    outside : str, complex or dict, optional
+        The transparent medium around the particle, as ``medium``; vacuum unless said.
 
     Raises
     ------
@@ -48,6 +50,7 @@ class Particle:
     medium: Medium | None = None
     temperature_c: float | None = None
     density_kg_m3: float | None = None
+    outside: Medium | None = None
 
     shape: ClassVar[str] = ""
 
@@ -63,32 +66,60 @@ class Particle:
         """The keys of the section ``[particle]``."""
         given = {field.name: getattr(self, field.name) for field in fields(self)}
         keys: dict[str, Any] = {"shape": self.shape, **{k: v for k, v in given.items() if v is not None}}
-        medium = keys.get("medium")
-        if isinstance(medium, (int, float, complex)):
-            keys["medium"] = {"index": [complex(medium).real, complex(medium).imag]}
+        for name in ("medium", "outside"):
+            if name in keys:
+                keys[name] = in_keys(keys[name])
         return keys
 
 
-@dataclass(frozen=True)
-class Sphere(Particle):
-    """A homogeneous sphere.
+def in_keys(medium: Medium) -> str | Mapping[str, Any]:
+    """A medium as scenes have it: an index as a table."""
+    if isinstance(medium, (int, float, complex)):
+        return {"index": [complex(medium).real, complex(medium).imag]}
+    return medium
 
-    Parameters are those of :class:`Particle`.
+
+def in_film(film: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A film as scenes have it."""
+    if not isinstance(film, Mapping) or "medium" not in film:
+        return film  # refused with the scene
+    return {**film, "medium": in_keys(film["medium"])}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sphere(Particle):
+    """A sphere: homogeneous, in layers, with a radial profile of the index, or coated.
+
+    Parameters
+    ----------
+    coating : list of dict, optional
+        Films from inside out: ``[{"medium": "ethanol", "thickness_nm": 100}]``. Layers and profiles are tables of
+        ``medium``: ``{"layers": [{"radius_fraction": 0.8, "medium": "water"}, {"medium": "ice"}]}``.
 
     Examples
     --------
     >>> Sphere(radius_um=10, medium=1.5 + 0.01j).keys()
     {'shape': 'sphere', 'radius_um': 10, 'medium': {'index': [1.5, 0.01]}}
+    >>> Sphere(radius_um=2, coating=[{"medium": 1.75 + 0.44j, "thickness_nm": 20}], outside="water").keys()["coating"]
+    [{'medium': {'index': [1.75, 0.44]}, 'thickness_nm': 20}]
     >>> Sphere(radius_um=-1)
     Traceback (most recent call last):
         ...
     ValueError: scene: particle.radius_um = -1: a radius must be 0.000001 to 10 mm
     """
 
+    coating: Sequence[Mapping[str, Any]] | None = None
     shape: ClassVar[str] = "sphere"
 
+    def keys(self) -> dict[str, Any]:
+        """The keys of the section ``[particle]``."""
+        keys = super().keys()
+        if isinstance(self.coating, Sequence) and not isinstance(self.coating, str):
+            keys["coating"] = [in_film(film) for film in self.coating]
+        return keys
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, kw_only=True)
 class Spheroid(Particle):
     """A spheroid, its axis vertical unless said.
 
@@ -113,7 +144,7 @@ class Spheroid(Particle):
     shape: ClassVar[str] = "spheroid"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Raindrop(Particle):
     """A falling raindrop.
 

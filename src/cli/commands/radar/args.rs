@@ -2,8 +2,6 @@
 
 use crate::cli::args::particle::{Index, parse_index};
 use clap::{Args, ValueEnum};
-use gonio::radar::RadarQuantities;
-use num_complex::Complex64;
 use std::path::PathBuf;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -104,13 +102,4 @@ pub struct RadarArgs {
     /// JSON in place of CSV
     #[arg(long)]
     pub(super) json: bool,
-}
-
-/// One row: what it is of, and what is seen.
-pub(super) struct Row {
-    pub(super) frequency_ghz: f64,
-    pub(super) temperature_c: Option<f64>,
-    pub(super) index: Complex64,
-    pub(super) diameter_mm: Option<f64>,
-    pub(super) seen: RadarQuantities,
 }

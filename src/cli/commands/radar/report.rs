@@ -1,7 +1,8 @@
 //! Rows of what a radar sees, as CSV and as JSON.
 
-use super::args::{RadarArgs, Row};
-use gonio::radar::RadarQuantities;
+use super::args::RadarArgs;
+use gonio::medium::wavelength_of_ghz;
+use gonio::radar::{RadarQuantities, Row};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -21,6 +22,15 @@ fn columns(q: &RadarQuantities) -> [(&'static str, f64); 10] {
     ]
 }
 
+fn frequency_ghz(row: &Row) -> f64 {
+    wavelength_of_ghz(1.0) / row.wavelength
+}
+
+/// As it was asked for: without what the way by metres adds to its last digits.
+fn diameter_mm(row: &Row) -> Option<f64> {
+    row.diameter.map(|d| (d * 1e15).round() / 1e12)
+}
+
 pub(super) fn as_csv(rows: &[Row]) -> String {
     let mut text = String::from("frequency_ghz,temperature_c,n,k,diameter_mm");
     if let Some(row) = rows.first() {
@@ -31,10 +41,10 @@ pub(super) fn as_csv(rows: &[Row]) -> String {
     text.push('\n');
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value}"));
     for row in rows {
-        let Row { frequency_ghz, temperature_c, index, diameter_mm, seen } = row;
-        let (celsius, diameter) = (number(*temperature_c), number(*diameter_mm));
-        let _ =
-            write!(text, "{frequency_ghz:.6},{celsius},{:.6},{:.6},{diameter}", index.re, index.im);
+        let Row { index, seen, .. } = row;
+        let (celsius, diameter) = (number(row.celsius), number(diameter_mm(row)));
+        let ghz = frequency_ghz(row);
+        let _ = write!(text, "{ghz:.6},{celsius},{:.6},{:.6},{diameter}", index.re, index.im);
         for (_, value) in columns(seen) {
             let _ = write!(text, ",{value:.6e}");
         }
@@ -46,10 +56,10 @@ pub(super) fn as_csv(rows: &[Row]) -> String {
 pub(super) fn as_json(args: &RadarArgs, rows: &[Row], seconds: f64) -> String {
     let row = |row: &Row| {
         let mut entry = json!({
-            "frequency_ghz": row.frequency_ghz,
-            "temperature_c": row.temperature_c,
+            "frequency_ghz": frequency_ghz(row),
+            "temperature_c": row.celsius,
             "index": [row.index.re, row.index.im],
-            "diameter_mm": row.diameter_mm,
+            "diameter_mm": diameter_mm(row),
         });
         for (name, value) in columns(&row.seen) {
             // no depolarisation has no decibels
