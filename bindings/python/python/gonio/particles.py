@@ -63,7 +63,13 @@ class Particle:
         scene_of(self, {"table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
 
     def keys(self) -> dict[str, Any]:
-        """The keys of the section ``[particle]``."""
+        """The keys of the section ``[particle]``.
+
+        Returns
+        -------
+        dict
+            As in a scene file; what was not given is not in it.
+        """
         given = {field.name: getattr(self, field.name) for field in fields(self)}
         keys: dict[str, Any] = {"shape": self.shape, **{k: v for k, v in given.items() if v is not None}}
         for name in ("medium", "outside"):
@@ -112,7 +118,13 @@ class Sphere(Particle):
     shape: ClassVar[str] = "sphere"
 
     def keys(self) -> dict[str, Any]:
-        """The keys of the section ``[particle]``."""
+        """The keys of the section ``[particle]``, films among them.
+
+        Returns
+        -------
+        dict
+            As in a scene file.
+        """
         keys = super().keys()
         if isinstance(self.coating, Sequence) and not isinstance(self.coating, str):
             keys["coating"] = [in_film(film) for film in self.coating]
