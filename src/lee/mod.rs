@@ -191,6 +191,8 @@ where
 
 /// Where the index that stands for the whole visible is taken.
 const MIDDLE: f64 = 550e-9;
+/// The coarsest sampling that still shows bows.
+const LEAST_FINENESS: f64 = 0.1;
 
 /// One radius.
 fn column<A, E, P, F>(
@@ -337,7 +339,7 @@ fn check(request: &Request, beats: Beats) -> Result<(), LeeError> {
     if !(0.0..=0.5).contains(&request.size_spread) {
         return invalid("size_spread", request.size_spread.to_string(), "accepted are 0 to 0.5");
     }
-    if !(0.1..=100.0).contains(&request.fineness) {
+    if !(LEAST_FINENESS..=100.0).contains(&request.fineness) {
         return invalid("fineness", request.fineness.to_string(), "accepted are 0.1 to 100");
     }
     Ok(())

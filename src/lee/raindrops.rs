@@ -4,7 +4,7 @@
 //! and 149° (order 7) are a hundredth as bright, and are sampled accordingly. Beats between orders are too
 //! fast for the sun's disc and for colours, so that orders add as intensities.
 
-use super::{Angles, Beats, Diagram, Drop, LeeError, Request, diagram};
+use super::{Angles, Beats, Diagram, Drop, LEAST_FINENESS, LeeError, Request, diagram};
 use crate::medium::MediumSpec;
 use crate::plan::Plan;
 use crate::scene::{Choice, Grid, Orders, Particle, Scene, SceneFile, ShapeName};
@@ -76,7 +76,8 @@ impl Raindrops {
     pub(super) fn diagram(&self, request: &Request) -> Result<Diagram, LeeError> {
         let bright: Vec<Vec<u32>> = (0..=LAST_BRIGHT_ORDER).map(|order| vec![order]).collect();
         let faint = vec![(LAST_BRIGHT_ORDER + 1..=HIGHEST_ORDER).collect()];
-        let coarse = Request { fineness: FAINT_FINENESS * request.fineness, ..request.clone() };
+        let fineness = (FAINT_FINENESS * request.fineness).max(LEAST_FINENESS);
+        let coarse = Request { fineness, ..request.clone() };
         let mut whole = self.sum(request, &bright)?;
         let rest = self.sum(&coarse, &faint)?;
         let pairs = whole.xyz.iter_mut().flatten().zip(rest.xyz.iter().flatten());

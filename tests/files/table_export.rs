@@ -354,3 +354,22 @@ fn the_sun_s_disc_is_never_applied_twice() {
     };
     assert_eq!(picture(true), picture(false));
 }
+
+/// The size parameter that moments are counted by is that in the surroundings, which the table records.
+#[test]
+fn moments_are_counted_in_the_surroundings() {
+    let (_keep, folder) = tables();
+    let scene = "[particle]\nshape = \"sphere\"\nradius_um = 10\nmedium = 1.0\noutside = 1.5\n[light]\n\
+                 wavelengths_nm = [628.3185307]\n[table]\ntheta_deg = { from = 0, to = 180, count = 721 }\n\
+                 azimuth_deg = [0]\nquantity = \"mueller\"\n[model]\nmethod = \"mie\"\n";
+    fs::write(folder.join("bubble.toml"), scene).unwrap();
+    let table = ["table", "bubble.toml", "-o", "bubble.h5", "--no-preview"];
+    let (code, message) = gonio(&folder, &table);
+    assert_eq!(code, 0, "{message}");
+    assert_eq!(values(&folder.join("bubble.h5"), "outside_index"), [1.5]);
+    let export = ["export", "bubble.h5", "--to", "sasktran2", "--moments", "240", "-o", "b.nc"];
+    let (code, message) = gonio(&folder, &export);
+    assert_eq!(code, 0, "{message}");
+    // x = 100 in vacuum, 150 outside
+    assert!(message.contains("size parameter 150 has about 316"), "{message}");
+}

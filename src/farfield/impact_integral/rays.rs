@@ -7,12 +7,14 @@
 use super::integrand::Integrand;
 use super::met_fields::{MeetingChannels, transfer, turned_frames};
 use crate::farfield::deflection::curve::DeflectionCurve;
-use crate::farfield::deflection::scattering_plane::Node;
+use crate::farfield::deflection::scan::Scan;
+use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane};
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::optics::Grazing;
-use crate::trace::Meeting;
+use crate::shape::Shape;
+use crate::trace::{Meeting, Tracer};
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Real rays through which the polynomials pass.
 pub(crate) const RAYS: usize = 20;
@@ -22,6 +24,7 @@ pub(crate) const TUNNEL: f64 = 4.0;
 const SAMPLES_PER_PERIOD: f64 = 1.8;
 
 /// What the integral needs along a plane, as polynomials in the launch point `sin α`.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Rays {
     channels: Channels<Chebyshev<1>>,
     /// Launch points of the first and the last real ray.
@@ -30,6 +33,7 @@ pub(crate) struct Rays {
 }
 
 /// What is known of a ray, or the polynomials through that of all.
+#[derive(Clone, Debug, PartialEq)]
 struct Channels<T> {
     impact: T,
     /// Path L without the part outside.
@@ -58,17 +62,34 @@ impl Rays {
         Anchor { angle, impact, path: path - impact * angle }
     }
 
-    /// Trace real rays between two launch points.
+    /// Those of a sphere from a launch point to the rim, through which they are analytic.
+    pub(crate) fn of_sphere(order: u32, index: Complex64, from: f64) -> Option<Self> {
+        const SPARE: f64 = 0.002;
+        let shape = Shape::sphere();
+        // rays know nothing of the size
+        let tracer = Tracer::new(&shape, index, 1.0, order);
+        let plane = ScatteringPlane::new(&tracer, order, 0.0, [0.0; 2]);
+        let scan = Scan { nodes: 64 + 16 * order as usize, axis_gap: 0.02, limit: FRAC_PI_2 };
+        let silhouette = shape.silhouette();
+        let curve = DeflectionCurve::new(plane, &silhouette, scan)?;
+        Self::between(&curve, [from, 1.0 - SPARE], RAYS - 1, None)
+    }
+
+    /// Trace real rays between two launch points; polynomials of a `degree` pass through what they have beside
+    /// those of a sphere (`like`), or through all.
     pub(crate) fn between(
         curve: &DeflectionCurve,
         [from, to]: [f64; 2],
         degree: usize,
+        like: Option<&Self>,
     ) -> Option<Self> {
         let plane = curve.plane();
         let points = chebyshev::points(RAYS, from, to);
         let mut meetings: Vec<Meeting> = Vec::new();
         let mut rows = Vec::with_capacity(RAYS);
-        for sin in points {
+        let like: Option<Vec<Channels<f64>>> =
+            like.map(|like| points.iter().map(|&sin| like.channels.at(sin)).collect());
+        for &sin in &points {
             let node = curve.ray_at(sin)?;
             let [u, v] = node.place;
             plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings)?;
@@ -76,10 +97,14 @@ impl Rays {
         }
         unwrap_turns(&mut rows);
         let fit = |value: &dyn Fn(&Channels<f64>) -> f64| {
-            let values: Vec<[f64; 1]> = rows.iter().map(|row| [value(row)]).collect();
-            let mut series = Chebyshev::fit(&values, from, to);
-            series.truncate(degree);
-            series
+            let fit = |values: Vec<[f64; 1]>| Chebyshev::fit(&values, from, to);
+            let all = rows.iter().map(value);
+            let Some(like) = &like else {
+                return fit(all.map(|value| [value]).collect()).truncated(degree);
+            };
+            let round: Vec<[f64; 1]> = like.iter().map(|row| [value(row)]).collect();
+            let beside = all.zip(&round).map(|(value, [round])| [value - round]).collect();
+            fit(beside).truncated(degree) + fit(round)
         };
         let meeting = |hit: usize| MeetingChannels {
             square: fit(&|row| row.meetings[hit].square),
@@ -165,15 +190,32 @@ impl Rays {
 
     /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
     fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
-        let meeting = |channels: &MeetingChannels<Chebyshev<1>>| MeetingChannels {
-            square: at(&channels.square, sin).0,
-            radius: at(&channels.radius, sin).0,
-            turn: at(&channels.turn, sin).0,
-        };
-        let meetings = self.channels.meetings.iter().map(meeting);
+        let meetings = self.channels.meetings.iter().map(|meeting| meeting.at(sin));
         let [across, along] = transfer(meetings, at(&self.channels.last_turn, sin).0, index, x);
         let all = [across[0], along[1], -across[1], -along[0]];
         all.iter().all(|s| s.is_finite()).then_some(all)
+    }
+}
+
+impl Channels<Chebyshev<1>> {
+    /// All at a launch point.
+    fn at(&self, sin: f64) -> Channels<f64> {
+        let at = |series: &Chebyshev<1>| at(series, sin).0;
+        Channels {
+            impact: at(&self.impact),
+            path: at(&self.path),
+            spreading: at(&self.spreading),
+            inside: at(&self.inside),
+            meetings: self.meetings.iter().map(|meeting| meeting.at(sin)).collect(),
+            last_turn: at(&self.last_turn),
+        }
+    }
+}
+
+impl MeetingChannels<Chebyshev<1>> {
+    fn at(&self, sin: f64) -> MeetingChannels<f64> {
+        let at = |series: &Chebyshev<1>| at(series, sin).0;
+        MeetingChannels { square: at(&self.square), radius: at(&self.radius), turn: at(&self.turn) }
     }
 }
 
@@ -226,11 +268,7 @@ fn unwrap_turns(rows: &mut [Channels<f64>]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::farfield::deflection::scan::Scan;
-    use crate::farfield::deflection::scattering_plane::ScatteringPlane;
-    use crate::shape::Shape;
-    use crate::trace::Tracer;
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::PI;
 
     const INDEX: f64 = 1.333;
 
@@ -249,7 +287,7 @@ mod tests {
     fn channels_of_a_sphere_are_known() {
         for order in [2u32, 4] {
             with_curve(order, |curve| {
-                let rays = Rays::between(curve, [0.6, 0.999], RAYS - 1).unwrap();
+                let rays = Rays::between(curve, [0.6, 0.999], RAYS - 1, None).unwrap();
                 let p = f64::from(order);
                 for sin in [0.6, 0.8, 0.97, 1.0, 1.02f64] {
                     let anchor = rays.anchor(sin);
@@ -279,7 +317,7 @@ mod tests {
     #[test]
     fn fields_from_channels_are_those_of_traced_rays() {
         with_curve(3, |curve| {
-            let rays = Rays::between(curve, [0.3, 0.8], RAYS - 1).unwrap();
+            let rays = Rays::between(curve, [0.3, 0.8], RAYS - 1, None).unwrap();
             for sin in [0.4, 0.55, 0.7] {
                 let node = curve.ray_at(sin).unwrap();
                 let traced = curve.plane().transfer(&node.exit, node.angle);
