@@ -113,7 +113,7 @@ impl Observation {
 
     fn check(&self) -> Result<(), ObservationError> {
         for wavelength in &self.wavelengths {
-            number("wavelength_mm", wavelength * 1e3)?;
+            number("wavelength_mm", in_mm(*wavelength))?;
         }
         let drops: &[(f64, f64)] = match &self.drops {
             Drops::Each { diameters, number_per_m3 } => {
@@ -126,7 +126,7 @@ impl Observation {
         for &(diameter, number) in drops {
             if !(diameter > 0.0 && diameter.is_finite()) {
                 let accepted = "diameters above 0 are accepted";
-                return Err(refused("diameter_mm", diameter * 1e3, accepted));
+                return Err(refused("diameter_mm", in_mm(diameter), accepted));
             }
             if !(0.0..=1e12).contains(&number) {
                 return Err(refused("number_per_m3", number, "0 to 1e12 is accepted"));
@@ -167,6 +167,11 @@ impl Observation {
             }
         }
     }
+}
+
+/// A length in metres as it was asked for in mm: without what the way by metres adds to its last digits.
+fn in_mm(metres: f64) -> f64 {
+    (metres * 1e15).round() / 1e12
 }
 
 #[cfg(test)]
