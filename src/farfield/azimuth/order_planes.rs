@@ -4,10 +4,12 @@ use super::azimuthal_smoothness::azimuthal_smoothness;
 use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, another, trace};
+use super::places::{Azimuths, axis_gaps, scanned_rays, steps};
 use crate::farfield::assignment::near_grazing_taper::{Rim, taper};
 use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 use crate::farfield::branch::samples::Side;
+use crate::farfield::deflection::guide::OrderGuide;
 use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
@@ -18,10 +20,6 @@ use crate::trace::Tracer;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
-/// Azimuth steps per half-turn, before refinement by the tolerance: for orders of plain rays and
-/// pairs, and for those with rim waves, whose phases change faster.
-const HALF_TURN_STEPS: usize = 44;
-const HALF_TURN_STEPS_RIM: usize = 60;
 /// Planes too rough over azimuth for interpolation are so many times more; if that does not help, they
 /// say how planes are cut, and each that is asked for is traced by itself.
 const FINER: usize = 4;
@@ -44,17 +42,6 @@ pub(crate) struct OrderPlanes {
     pub share: f64,
 }
 
-/// Where the planes stand.
-#[derive(Clone, Debug)]
-pub(crate) enum Azimuths {
-    /// One serves all: nothing depends on azimuth.
-    Any,
-    /// Even steps over a half-turn, both ends in.
-    Even,
-    /// There as well, to be cut alike; any other is traced when it is asked for.
-    Single,
-}
-
 impl OrderPlanes {
     pub(crate) fn new(
         tracer: &Tracer,
@@ -62,8 +49,12 @@ impl OrderPlanes {
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
+        guide: Option<&OrderGuide>,
     ) -> Option<Self> {
-        let at = |finer: usize| Self::at(tracer, order, settings, edge, by, finer);
+        let at = |finer: usize| {
+            let guide = guide.filter(|_| finer == 1);
+            Self::at(tracer, order, settings, edge, by, (finer, guide))
+        };
         let found = at(1)?;
         let rough = |found: &Self| {
             azimuthal_smoothness(&found.planes, settings.size_parameter) > by.roughest
@@ -79,20 +70,19 @@ impl OrderPlanes {
         }
     }
 
-    /// With `finer` times as many planes as usual.
+    /// With `finer` times as many planes as usual, and what guides them.
     fn at(
         tracer: &Tracer,
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
-        finer: usize,
+        (finer, guide): (usize, Option<&OrderGuide>),
     ) -> Option<Self> {
-        let azimuths = azimuths(tracer);
+        let azimuths = Azimuths::of(tracer.shape());
         let centre = axial_ray(tracer, order);
         let high = by.is_high(order);
-        let steps = finer * if high { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
-        let places = azimuths.places(settings, steps);
+        let places = azimuths.places(settings.tolerance, finer * steps(by, order));
         // knots per radian at 1 %: the strongest orders have more
         let density = if order == 0 && edge.is_some() {
             48.0
@@ -102,7 +92,7 @@ impl OrderPlanes {
             20.0
         };
         let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
-        let caustic_disorder = caustic_disorder(tracer, order);
+        let caustic_disorder = caustic_disorder(tracer.shape(), order);
         let x = settings.size_parameter;
         let near_critical = by.near_critical_serves(order, tracer.shape().rotational_symmetry());
         let gaps = axis_gaps(caustic_disorder);
@@ -115,7 +105,7 @@ impl OrderPlanes {
         let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = CutLayout {
-                scan: 64 + 16 * order as usize,
+                scan: scanned_rays(order),
                 axis_gap,
                 folds: Vec::new(),
                 cut: None,
@@ -127,7 +117,8 @@ impl OrderPlanes {
                 rim,
                 edge: edge.map(Penumbra::taper),
             };
-            let traced = trace(tracer, order, centre, &places, layout, caustic_disorder)?;
+            let disorder = caustic_disorder;
+            let traced = trace(tracer, order, centre, &places, layout, disorder, guide)?;
             let Traced { mut planes, layout, about_axis } = traced;
             let beside_penumbra = planes.first().map_or(0, Vec::len);
             for (segments, &azimuth) in planes.iter_mut().zip(&places) {
@@ -293,16 +284,6 @@ fn scattering_angles(low: f64, high: f64) -> [f64; 2] {
     [if meets(0.0) { 0.0 } else { a.min(b) }, if meets(PI) { PI } else { a.max(b) }]
 }
 
-/// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
-/// and with the deformation of the outline.
-fn axis_gaps(caustic_disorder: f64) -> Vec<f64> {
-    const NARROWEST: f64 = 0.02;
-    const WIDEST: f64 = 0.35;
-    let mut gaps = [3.0, 6.0].map(|f| (f * caustic_disorder).clamp(NARROWEST, WIDEST)).to_vec();
-    gaps.dedup();
-    gaps
-}
-
 /// Lowest and highest angle of each segment over all planes, with room for interpolation.
 fn spans(planes: &[Vec<Segment>]) -> Vec<(f64, f64)> {
     const ROOM: f64 = 1e-3;
@@ -330,23 +311,6 @@ fn rim_layout(
     let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rim)?;
     let round = rotational || caustic_disorder < by.nearly_round;
     Some(NearGrazingLayout::new(marks, rotational, round))
-}
-
-fn azimuths(tracer: &Tracer) -> Azimuths {
-    if tracer.shape().rotational_symmetry() { Azimuths::Any } else { Azimuths::Even }
-}
-
-impl Azimuths {
-    fn places(&self, settings: &FarFieldSettings, half_turn_steps: usize) -> Vec<f64> {
-        match self {
-            Azimuths::Any => vec![0.0],
-            Azimuths::Even | Azimuths::Single => {
-                let finer = (0.01 / settings.tolerance).powf(0.125).clamp(0.8, 2.0);
-                let steps = (half_turn_steps as f64 * finer).ceil() as usize;
-                (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()
-            }
-        }
-    }
 }
 
 #[cfg(test)]

@@ -9,3 +9,4 @@ pub mod near_grazing;
 pub mod near_grazing_layout;
 mod prefactor;
 pub mod rays;
+mod smooth_part;

@@ -6,6 +6,7 @@
 
 use super::integrand::Integrand;
 use super::met_fields::{MeetingChannels, transfer, turned_frames};
+use super::smooth_part::SmoothPart;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::scattering_plane::Node;
 use crate::math::chebyshev::{self, Chebyshev};
@@ -20,6 +21,11 @@ pub(crate) const RAYS: usize = 20;
 pub(crate) const TUNNEL: f64 = 4.0;
 /// Samples of the integrand per period of its phase.
 const SAMPLES_PER_PERIOD: f64 = 1.8;
+/// Samples of which each is computed by itself.
+const FEW: usize = 64;
+/// Phase of the wave outside, from its turning point to the surface, from which on the coefficients of the curved
+/// interface are asymptotic series.
+const FAR: f64 = 18.0;
 
 /// What the integral needs along a plane, as polynomials in the launch point `sin α`.
 pub(crate) struct Rays {
@@ -127,20 +133,68 @@ impl Rays {
         let step = (end - self.from) / count;
         let count = count as usize;
         let mut integrand = Integrand::with_capacity(count);
+        let place = |k: usize| self.from + k as f64 * step;
+        // where entry and exit are far from grazing, all but the path is smooth once the ways outside are in it
+        let far = |sin: f64| self.outside(sin).into_iter().all(|way| x * way > FAR);
+        let smooth_count = (1..count).take_while(|&k| far(place(k))).count();
+        let turned = |sin: f64| {
+            let turn = Complex64::cis(x * self.outside(sin).iter().sum::<f64>());
+            Some(self.amplitude(sin, index, x)?.map(|m| m * turn))
+        };
+        let smooth = if smooth_count > FEW {
+            let ends = [place(1), place(smooth_count)];
+            Some(SmoothPart::between(ends, |sin| self.zone(sin, x), turned)?)
+        } else {
+            None
+        };
         for k in 1..count {
-            let sin = self.from + k as f64 * step;
+            let sin = place(k);
             let weight = weight(sin) * step;
-            let matrix = self.transfer(sin, index, x)?;
-            let (spreading, _) = at(&self.channels.spreading, sin);
-            let (impact, rate) = self.impact(sin);
-            let (path, _) = self.path(sin);
-            let (inside, _) = at(&self.channels.inside, sin);
-            let absorbed = (-x * index.im * inside / index.re).exp();
-            let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
-            integrand.push(impact, path, matrix.map(|m| m * factor));
+            let [impact] = self.channels.impact.value(sin);
+            let [mut path] = self.channels.path.value(sin);
+            let amplitude = match &smooth {
+                Some(smooth) if k <= smooth_count => {
+                    path -= self.outside(sin).iter().sum::<f64>();
+                    smooth.at(sin)
+                }
+                _ => self.amplitude(sin, index, x)?,
+            };
+            integrand.push(impact, path, amplitude.map(|m| m * weight));
         }
         integrand.fill_lanes();
         Some(integrand)
+    }
+
+    /// The ways of the waves outside, from their turning points to the first meeting and from the last.
+    fn outside(&self, sin: f64) -> [f64; 2] {
+        let way = |meeting: Option<&MeetingChannels<Chebyshev<1>>>| {
+            let Some(meeting) = meeting else { return 0.0 };
+            let ([square], [radius]) = (meeting.square.value(sin), meeting.radius.value(sin));
+            radius * Grazing::path_outside(square.max(0.0).sqrt().min(1.0))
+        };
+        let meetings = &self.channels.meetings;
+        [way(meetings.first()), way(meetings.last())]
+    }
+
+    /// S1 … S4 of the ray at a launch point, with the spreading of impacts and what is absorbed.
+    fn amplitude(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
+        let matrix = self.transfer(sin, index, x)?;
+        let [spreading] = self.channels.spreading.value(sin);
+        let [inside] = self.channels.inside.value(sin);
+        let (_, rate) = self.impact(sin);
+        let absorbed = (-x * index.im * inside / index.re).exp();
+        Some(matrix.map(|m| m * (rate.abs() * spreading.max(0.0).sqrt() * absorbed)))
+    }
+
+    /// The change of the launch point over which the surface's coefficients change: a wave zone where a meeting is
+    /// grazing, more the farther it is from that.
+    fn zone(&self, sin: f64, x: f64) -> f64 {
+        let zone = |meeting: &MeetingChannels<Chebyshev<1>>| {
+            let (square, slope) = at(&meeting.square, sin);
+            let size = (0.5 * x * meeting.radius.value(sin)[0]).powf(2.0 / 3.0);
+            (1.0 + 0.25 * (size * square).abs()) / (size * slope).abs()
+        };
+        self.channels.meetings.iter().map(zone).fold(f64::INFINITY, f64::min)
     }
 
     /// Launch point at which the first of entry and exit becomes grazing.
@@ -166,12 +220,12 @@ impl Rays {
     /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
     fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
         let meeting = |channels: &MeetingChannels<Chebyshev<1>>| MeetingChannels {
-            square: at(&channels.square, sin).0,
-            radius: at(&channels.radius, sin).0,
-            turn: at(&channels.turn, sin).0,
+            square: channels.square.value(sin)[0],
+            radius: channels.radius.value(sin)[0],
+            turn: channels.turn.value(sin)[0],
         };
         let meetings = self.channels.meetings.iter().map(meeting);
-        let [across, along] = transfer(meetings, at(&self.channels.last_turn, sin).0, index, x);
+        let [across, along] = transfer(meetings, self.channels.last_turn.value(sin)[0], index, x);
         let all = [across[0], along[1], -across[1], -along[0]];
         all.iter().all(|s| s.is_finite()).then_some(all)
     }

@@ -24,20 +24,19 @@ impl<const C: usize> Chebyshev<C> {
     /// Interpolate values given at [`points`].
     pub fn fit(values: &[[f64; C]], from: f64, to: f64) -> Self {
         let count = values.len();
-        let coefficients = (0..count)
-            .map(|n| {
-                let mut sum = [0.0; C];
-                for (k, value) in values.iter().enumerate() {
-                    // points ascend, so that x_k = cos(π - (k+½)π/count)
-                    let angle = PI - (k as f64 + 0.5) * PI / count as f64;
-                    let weight = (n as f64 * angle).cos() * if n == 0 { 1.0 } else { 2.0 };
-                    for c in 0..C {
-                        sum[c] += weight * value[c] / count as f64;
-                    }
+        let mut coefficients = vec![[0.0; C]; count];
+        for (k, value) in values.iter().enumerate() {
+            // points ascend, so that x_k = cos(π - (k+½)π/count)
+            let x = (PI - (k as f64 + 0.5) * PI / count as f64).cos();
+            // T_n(x) by recurrence, twice but for the first
+            let (mut before, mut here, mut twice) = (x, 1.0, 1.0);
+            for row in &mut coefficients {
+                for c in 0..C {
+                    row[c] += twice * here * value[c] / count as f64;
                 }
-                sum
-            })
-            .collect();
+                (before, here, twice) = (here, 2.0 * x * here - before, 2.0);
+            }
+        }
         Self { from, to, coefficients }
     }
 
@@ -59,6 +58,19 @@ impl<const C: usize> Chebyshev<C> {
         (value, slope)
     }
 
+    /// Values at `x`, without derivatives (Clenshaw).
+    pub fn value(&self, x: f64) -> [f64; C] {
+        let t = (2.0 * x - self.from - self.to) / (self.to - self.from);
+        let (mut before, mut last) = ([0.0; C], [0.0; C]);
+        for row in self.coefficients.iter().skip(1).rev() {
+            for c in 0..C {
+                (before[c], last[c]) = (last[c], row[c] + 2.0 * t * last[c] - before[c]);
+            }
+        }
+        let first = self.coefficients.first().copied().unwrap_or([0.0; C]);
+        std::array::from_fn(|c| first[c] + t * last[c] - before[c])
+    }
+
     /// Keep terms up to this degree: the polynomial nearest in the least-squares sense, which
     /// extrapolates without taking up what in the values is not smooth.
     pub fn truncate(&mut self, degree: usize) {
@@ -76,6 +88,7 @@ mod tests {
         let series = Chebyshev::fit(&values, -1.0, 3.0);
         for x in [-1.0, 0.3, 2.9] {
             let ([value], [slope]) = series.at(x);
+            assert!((series.value(x)[0] - value).abs() < 1e-13 * 20.0);
             assert!((value - x.exp()).abs() < 1e-13 * 20.0 && (slope - x.exp()).abs() < 1e-11);
         }
     }
