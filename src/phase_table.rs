@@ -158,8 +158,10 @@ pub struct TableHeader {
 pub struct Slab {
     /// Wavelength in vacuum, metres.
     pub wavelength: f64,
-    /// Index of the particle.
+    /// Index of the particle relative to what surrounds it.
     pub index: Complex64,
+    /// Index of what surrounds it: 1 in vacuum.
+    pub outside_index: f64,
     /// Values in sr⁻¹, shape (elements, θ, φ).
     pub values: Array3<f32>,
     /// Highest number of coalescing rays where the two-ray uniform formula does not hold
@@ -194,6 +196,22 @@ pub struct Slab {
     pub left_out: f64,
     /// By which method each order was computed; empty where the table does not tell.
     pub methods: Vec<MethodPart>,
+}
+
+impl Slab {
+    /// Circumference of a sphere of a radius (metres) over the wavelength in the surroundings.
+    ///
+    /// ```
+    /// use gonio::phase_table::Slab;
+    /// use ndarray::Array3;
+    ///
+    /// let slab = Slab::plain((500e-9, 1.2.into()), Array3::zeros((1, 1, 1)), [1e-12; 2], 0.0);
+    /// let in_water = Slab { outside_index: 1.333, ..slab };
+    /// assert!((in_water.size_parameter(1e-6) - 16.751).abs() < 1e-3);
+    /// ```
+    pub fn size_parameter(&self, radius: f64) -> f64 {
+        TAU * radius * self.outside_index / self.wavelength
+    }
 }
 
 /// Bands of scattering angle for which an error is stated.

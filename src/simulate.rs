@@ -51,7 +51,7 @@ use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
 use crate::farfield::{ErrorEstimate, FarField};
 use crate::medium::Light;
 use crate::phase_table::{Axes, ForwardPeak, InvalidTable, PhaseTable, Slab, TableHeader};
-use crate::plan::{Engine, Plan};
+use crate::plan::{Engine, Plan, PlanError};
 use crate::population;
 use crate::scene::{Diffraction, Interference, Scene};
 use crate::series::SeriesError;
@@ -158,6 +158,9 @@ fn checked_slab(
     } else {
         of_all_kinds(scene, plan, prepared, wavelength)?
     };
+    let outside_index =
+        wavelength / scene.medium.seen_outside(wavelength).map_err(PlanError::from)?;
+    let slab = Slab { outside_index, ..slab };
     slab.validate(header, 0.0)?;
     Ok(slab)
 }
@@ -244,6 +247,7 @@ fn computed_slab(
     Ok(Slab {
         wavelength,
         index,
+        outside_index: 1.0,
         values,
         caustic_order,
         scattering_cross_section: sections.scattering() * plan.radius * plan.radius,

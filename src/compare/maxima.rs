@@ -4,7 +4,7 @@
 //! are a pair only within half the distance to the reference's next maximum: what lies further off
 //! is another maximum, and is listed as one without a partner.
 
-use super::curve::Curve;
+use super::curve::{Curve, nearest};
 use crate::phase_table::PhaseTable;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -83,7 +83,10 @@ fn spacing(peaks: &[f64], i: usize) -> f64 {
 
 /// Size parameter at a wavelength of whichever drop is smaller: its ripple is the coarser one.
 pub(super) fn size_parameter(test: &PhaseTable, reference: &PhaseTable, wavelength: f64) -> f64 {
-    TAU * test.header.radius.min(reference.header.radius) / wavelength
+    let of = |table: &PhaseTable| {
+        nearest(table, wavelength).map_or(f64::NAN, |slab| slab.size_parameter(table.header.radius))
+    };
+    of(test).min(of(reference))
 }
 
 /// The fine ripple on the bows: external reflection beats with the bow's rays.

@@ -3,7 +3,6 @@
 
 use super::average::{Averaged, average_departure};
 use crate::phase_table::{PhaseTable, Quantity};
-use std::f64::consts::TAU;
 
 /// Everything to be told of a table, one sentence each, for the file and for people.
 pub fn notes(table: &PhaseTable) -> Vec<String> {
@@ -29,8 +28,8 @@ pub fn notes(table: &PhaseTable) -> Vec<String> {
 /// has 2x of them and a few more; with fewer the series rings at the dark angles.
 pub fn too_few_moments(tables: &[PhaseTable], moments: u16) -> Option<String> {
     let largest = |table: &PhaseTable| {
-        let wavelengths = table.header.axes.wavelength.iter();
-        wavelengths.map(|wavelength| TAU * table.header.radius / wavelength).fold(0.0, f64::max)
+        let sizes = table.slabs.iter().map(|slab| slab.size_parameter(table.header.radius));
+        sizes.fold(0.0, f64::max)
     };
     let size_parameter = tables.iter().map(largest).fold(0.0, f64::max);
     let whole = 2.0 * size_parameter + 16.0;

@@ -51,6 +51,7 @@ impl Slab {
         Self {
             wavelength,
             index,
+            outside_index: 1.0,
             values,
             caustic_order: None,
             scattering_cross_section: scattering,

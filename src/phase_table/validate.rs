@@ -133,6 +133,7 @@ impl Slab {
         if !(self.index.is_finite() && self.index.re > 0.0 && self.index.im >= 0.0) {
             return Err(invalid("refractive index", self.index, "n + ik with n > 0 and k ≥ 0"));
         }
+        within("outside_index", self.outside_index, 0.1..=10.0)?;
         self.validate_sections(header)?;
         within("asymmetry", self.asymmetry, -1.0..=1.0)?;
         within("peak_share", self.peak_share, 0.0..=1.0)?;

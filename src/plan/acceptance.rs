@@ -73,9 +73,8 @@ pub fn phase_shift(index: Complex64, size_parameter: f64) -> f64 {
     2.0 * size_parameter * (index.re - 1.0).abs()
 }
 
-/// What light may lose in absorbing surroundings on the way along the particle's diameter: the
-/// series and the rays outside are those of a transparent medium.
-pub const OUTSIDE_LOSS: f64 = 1e-3;
+/// What light may lose in absorbing surroundings on the way along the particle's diameter.
+pub const OUTSIDE_LOSS: f64 = Thresholds::MEASURED.most_lost_outside;
 
 /// Refuses surroundings that take more than [`OUTSIDE_LOSS`] of a wavelength in vacuum over the diameter of a
 /// radius (metres); below it their k is left out (amplitudes refer to light at the particle's centre, and

@@ -61,6 +61,7 @@ impl Sum {
         Some(Slab {
             wavelength: first.wavelength,
             index: first.index,
+            outside_index: first.outside_index,
             values: values.mapv(|value| value as f32),
             caustic_order: None,
             scattering_cross_section: scattering,

@@ -124,6 +124,7 @@ pub fn sphere_slab(
     Ok(Slab {
         wavelength,
         index,
+        outside_index: 1.0,
         values,
         caustic_order: None,
         scattering_cross_section: curves.scattering,

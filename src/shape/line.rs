@@ -4,6 +4,7 @@ use super::body::Shape;
 use super::tangent::Tangent;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
+use std::f64::consts::PI;
 
 impl Shape {
     /// Length of the chord from a surface point along an inward direction to the far side.
@@ -35,6 +36,29 @@ impl Shape {
             }
         }
         radius
+    }
+
+    /// Largest less smallest distance of the surface from the centre, in radii of the sphere of equal volume: 0 for
+    /// a sphere, however the light falls.
+    pub fn deformation(&self) -> f64 {
+        const STEPS: u32 = 16;
+        let down = self.down;
+        let across = if down.x.abs() < 0.5 {
+            Vec3 { x: 1.0, y: 0.0, z: 0.0 }
+        } else {
+            Vec3 { x: 0.0, y: 1.0, z: 0.0 }
+        };
+        let aside = across - down * across.dot(down);
+        let aside = aside * aside.dot(aside).sqrt().recip();
+        let radius = |k: u32| {
+            let (sin, cos) = (PI * f64::from(k) / f64::from(STEPS)).sin_cos();
+            let towards = down * cos + aside * sin;
+            self.radius_towards(towards.x, towards.y, towards.z)
+        };
+        let (low, high) = (0..=STEPS)
+            .map(radius)
+            .fold((f64::MAX, 0.0f64), |(low, high), r| (low.min(r), high.max(r)));
+        high - low
     }
 
     /// Where the line `(u, v, t)` along +z first meets the surface: the coordinate `t`.
@@ -238,6 +262,17 @@ mod tests {
     use crate::shape::RaindropModel;
     use crate::shape::samples::shapes;
     use num_complex::Complex64;
+
+    /// Of a spheroid the difference of its half-axes, however the light falls.
+    #[test]
+    fn deformation_is_that_of_the_body() {
+        for sun in [0.0, 0.4, 1.5] {
+            let spheroid = Shape::spheroid(0.9, sun).unwrap();
+            let (up, aside) = (0.9f64.powf(2.0 / 3.0), 0.9f64.powf(-1.0 / 3.0));
+            assert!((spheroid.deformation() - (aside - up)).abs() < 1e-12, "{sun}");
+        }
+        assert_eq!(Shape::sphere().deformation(), 0.0);
+    }
 
     /// A line enters and leaves at the surface; on the sphere the chord is `2 cos i'`.
     #[test]

@@ -58,8 +58,7 @@ fn guides(scene: &Scene, plan: &Plan) -> Result<Option<Guides>, MediumError> {
     let x = TAU * plan.radius / middle.wavelength;
     let assignment = plan.assignment(&plan.tracer(middle.index, x), x);
     let orders = assignment.map_or_else(Vec::new, |all| all.orders_of(Method::Planes));
-    let guides =
-        || Guides::new(&plan.shape, &orders, plan.tolerance, range, &plan.thresholds);
+    let guides = || Guides::new(&plan.shape, &orders, plan.tolerance, range, &plan.thresholds);
     Ok((!orders.is_empty()).then(guides))
 }
 

@@ -63,6 +63,7 @@ pub fn slab(header: &TableHeader, index: usize) -> Slab {
     Slab {
         wavelength: axes.wavelength[index],
         index: Complex64::new(1.33 + 1e-3 * index as f64, 1e-9),
+        outside_index: 1.0 + 0.1 * index as f64,
         values,
         caustic_order: Some(Array2::from_shape_fn((theta.len(), phi.len()), |(i, j)| {
             u8::from(i == theta.len() / 2 && j == index) * 3

@@ -41,8 +41,7 @@ fn guided_against_traced(
     let settings =
         FarFieldSettings { size_parameter: x, orders, tolerance: TOLERANCE, diffraction: true };
     let assignment = Assignment::new(&tracer, orders, x, TOLERANCE, &by);
-    let field =
-        |guides| FarField::guided(&tracer, &settings, assignment.clone(), guides);
+    let field = |guides| FarField::guided(&tracer, &settings, assignment.clone(), guides);
     let (guided, traced) = (field(Some(&guides)), field(None));
     assert_eq!(guided.assignment(), traced.assignment());
     let theta: Vec<f64> = (0..2000).map(|i| (0.3 + 0.0897 * f64::from(i)).to_radians()).collect();
@@ -88,7 +87,8 @@ fn a_dye_whose_index_turns_back() {
     let all: Vec<f64> = wavelengths.iter().map(|&w| index(w).re).collect();
     let turns = all.windows(3).filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0).count();
     assert!(turns > 0, "{all:?}");
-    let range = [all.iter().fold(f64::MAX, |a, b| a.min(*b)), all.iter().fold(0.0, |a, b| b.max(a))];
+    let range =
+        [all.iter().fold(f64::MAX, |a, b| a.min(*b)), all.iter().fold(0.0, |a, b| b.max(a))];
     for w in [460e-9, 600e-9] {
         let x = std::f64::consts::TAU * 0.3e-3 / w;
         let off = guided_against_traced(&drop(), x, &[0, 1, 2, 3, 4], range, index(w));
@@ -102,7 +102,8 @@ fn a_dye_whose_index_turns_back() {
 fn a_jump_of_the_index() {
     let shape = Shape::spheroid(0.97, 0.4).unwrap();
     for index in [1.28, 1.62] {
-        let off = guided_against_traced(&shape, 3000.0, &[0, 1, 2, 3, 4], [1.28, 1.62], index.into());
+        let off =
+            guided_against_traced(&shape, 3000.0, &[0, 1, 2, 3, 4], [1.28, 1.62], index.into());
         println!("jump, n = {index}: {off:.1e}");
         assert!(off < 0.1 * TOLERANCE, "{index}: {off}");
     }

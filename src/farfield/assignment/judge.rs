@@ -2,7 +2,8 @@
 
 use super::assigned::{Assigned, PlanesOutcome};
 use super::method::{Method, Reason};
-use super::near_grazing_taper::{Rim, taper};
+use super::near_grazing_taper::taper;
+use super::rim::Rim;
 use super::thresholds::Thresholds;
 use crate::shape::Shape;
 use std::f64::consts::PI;
@@ -62,14 +63,22 @@ impl Judge {
     /// What scattering planes lack of an order, in units of `x^{-2/3}`. Bows of spheres are as good as rays without
     /// one where the integral near the rim holds them, and as bad as pairs of rays near the rim where it does not.
     fn next_terms(&self, order: u32) -> f64 {
-        const AXIS_GAP: f64 = 0.02;
         let by_order = self.by.error_of_planes;
         if self.rim != Rim::Sphere || order < 2 {
             return by_order[(order as usize).min(by_order.len() - 1)];
         }
-        let marks =
-            taper(&self.by, self.index, order, self.size_parameter, 0.0, AXIS_GAP, Rim::Sphere);
-        let holds = marks.is_some() && self.size_parameter <= self.by.largest_checked_sphere;
+        let marks = taper(
+            &self.by,
+            self.index,
+            order,
+            self.size_parameter,
+            0.0,
+            self.by.narrowest_axis_gap,
+            Rim::Sphere,
+        );
+        let serves = self.by.near_grazing_share(self.index, order, self.rim, 0.0) > 0.0;
+        let holds =
+            serves && marks.is_some() && self.size_parameter <= self.by.largest_checked_sphere;
         if holds { by_order[1] } else { by_order[2] }
     }
 
@@ -118,9 +127,7 @@ impl Judge {
         if order == 0 || self.rotational() || self.size_parameter < self.by.wavefront_from {
             return 0.0;
         }
-        let [from, to] = self.by.wavefront_disorder(order, self.mirror);
-        let t = ((self.decisive_disorder(order) - from) / (to - from)).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
+        self.by.wavefront_share(order, self.mirror, self.decisive_disorder(order))
     }
 
     pub(super) fn patches(&self, order: u32, reasons: Vec<Reason>) -> Assigned {

@@ -28,17 +28,18 @@ mod assigned;
 mod judge;
 mod method;
 pub(crate) mod near_grazing_taper;
+mod rim;
 mod thresholds;
 
 pub use assigned::{Assigned, Outcome, PlanesOutcome};
 pub(crate) use judge::caustic_disorder;
 pub use method::{Formula, FormulaRange, Method, Reason, Spacing};
-pub use thresholds::Thresholds;
+pub use rim::Rim;
+pub use thresholds::{TaperRoom, Thresholds};
 
 use crate::phase_table::{FormulaPart, MethodPart};
 use crate::trace::Tracer;
 use judge::Judge;
-use near_grazing_taper::Rim;
 
 /// Who computes what, in the order in which orders are asked for.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,69 +2,26 @@
 //! some widths of its Airy function, over some Fresnel zones, and clear of the axis. Order 1 has no bow: its
 //! last ray stands in for that of a bow, by the width of its penumbra.
 
-use super::thresholds::Thresholds;
-use crate::trace::Tracer;
+use super::rim::Rim;
+use super::thresholds::{TaperRoom, Thresholds};
 use std::f64::consts::PI;
 
-/// What rays near the rim are like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rim {
-    /// Those of a sphere: all is known of them.
-    Sphere,
-    /// Alike at all azimuths.
-    Axial,
-    /// Different from azimuth to azimuth.
-    Uneven,
-}
-
-impl Rim {
-    /// That of a particle.
-    pub(crate) fn of(tracer: &Tracer) -> Self {
-        let shape = tracer.shape();
-        match (shape.is_sphere(), shape.rotational_symmetry()) {
-            (true, _) => Self::Sphere,
-            (false, true) => Self::Axial,
-            (false, false) => Self::Uneven,
+/// The room of an order's taper: of order 1, of a sphere's low and high orders, of all others.
+fn room(by: &Thresholds, order: u32, rim: Rim) -> TaperRoom {
+    let [first, low, high, other] = by.tapers;
+    match (order, rim) {
+        (1, _) => first,
+        (_, Rim::Sphere) => {
+            if by.is_high(order) {
+                high
+            } else {
+                low
+            }
         }
+        _ => other,
     }
 }
 
-/// Where a taper may lie.
-struct Room {
-    /// Widths of the Airy function between the bow's ray and the end of the taper; of order 1 so many before its last
-    /// ray.
-    airy_widths: f64,
-    /// Least end of the taper.
-    deepest: f64,
-    /// Least start, per end.
-    deepest_start: f64,
-    /// Fewest Fresnel zones within.
-    fewest_zones: f64,
-}
-
-impl Room {
-    /// Order 2 of a sphere of n = 1.333 is 21 % off without the integral at x = 300 and 1.3 % with it, at x = 100 33 and
-    /// 7 %: there it starts near the axis. The rays of order 1 spread slowly: their zones are wide, and below x = 130
-    /// single rays are nearer the truth at the middle than a short taper.
-    fn of(order: u32, rim: Rim, high: bool) -> Self {
-        let wide = Self { airy_widths: 5.0, deepest: 0.3, deepest_start: 0.5, fewest_zones: 5.0 };
-        match (order, rim) {
-            (1, _) => Self { airy_widths: 3.0, deepest_start: 0.1, fewest_zones: 10.0, ..wide },
-            (_, Rim::Sphere) => Self {
-                airy_widths: if high { 5.0 } else { 3.0 },
-                deepest: 0.1,
-                deepest_start: 0.05,
-                fewest_zones: 3.5,
-            },
-            _ => wide,
-        }
-    }
-}
-
-/// Fresnel zones of a ray within the taper: fewer would leave a step in the wave. The first order
-/// served is ten times as strong as the others.
-const FRESNEL_ZONES: f64 = 20.0;
-const FRESNEL_ZONES_HIGH: f64 = 10.0;
 /// Impact of the ray of a sphere's bow of this order, if there is one.
 fn bow(index: f64, order: u32) -> Option<f64> {
     let p = f64::from(order);
@@ -102,33 +59,28 @@ pub fn taper(
     axis_gap: f64,
     rim: Rim,
 ) -> Option<[f64; 3]> {
-    const FEWEST_WIDTHS: f64 = 2.0;
-    /// Distance from the axis at which rays are clear of it, in gaps.
-    const AXIS_GAPS: f64 = 1.25;
     let axial = rim != Rim::Uneven;
-    // order 1 has no bow before its last ray: what little is odd in the grazing angle would decide beyond the rim
-    let serves = by.near_grazing_serves(index, order, axial, caustic_disorder)
-        && (order > 1 || rim == Rim::Sphere);
-    let b = central_impact(index, order, size_parameter).filter(|b| serves && *b > 0.0)?;
+    let b = central_impact(index, order, size_parameter).filter(|b| *b > 0.0)?;
     let (_, bend) = deviation_slope(index, order, b);
     let airy = (0.5 * size_parameter * bend).cbrt().recip().min(0.5);
-    let room = Room::of(order, rim, by.is_high(order));
+    let room = room(by, order, rim);
     let mut full = b - room.airy_widths * airy - caustic_disorder;
     if axial {
-        full = below_axis(index, order, full, AXIS_GAPS * axis_gap);
+        full = below_axis(index, order, full, by.taper_axis_gaps * axis_gap);
     }
     if full < room.deepest {
         return None;
     }
     let zone = |b: f64| (size_parameter * deviation_slope(index, order, b).0.abs()).sqrt().recip();
-    let zones = if by.is_high(order) { FRESNEL_ZONES_HIGH } else { FRESNEL_ZONES };
+    let [low, high] = by.taper_zones;
+    let zones = if by.is_high(order) { high } else { low };
     let mut start = (full - zones * zone(full)).max(room.deepest_start * full);
     if !axial {
-        start = start.max(clear_of_axis(index, order, b, AXIS_GAPS * axis_gap)?);
+        start = start.max(clear_of_axis(index, order, b, by.taper_axis_gaps * axis_gap)?);
         full = full.max(start + room.fewest_zones * zone(full));
     }
     let wide = full - start > 0.99 * room.fewest_zones * zone(full) || !axial;
-    let serves = wide && full < b - FEWEST_WIDTHS * airy;
+    let serves = wide && full < b - by.fewest_airy_widths * airy;
     serves.then_some([start, full, b])
 }
 

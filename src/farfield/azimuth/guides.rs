@@ -25,7 +25,7 @@ impl Guides {
         let indices = GuideIndices::between(from, to);
         let guide = |&order: &u32| {
             let azimuths = Azimuths::of(shape).places(tolerance, steps(by, order));
-            let gap = axis_gaps(caustic_disorder(shape, order))[0];
+            let gap = axis_gaps(by.narrowest_axis_gap, caustic_disorder(shape, order))[0];
             let rays = scanned_rays(order);
             (order, OrderGuide::new(shape, order, &azimuths, rays, gap, &indices))
         };

@@ -176,8 +176,7 @@ fn cut(
     let segments = |j: usize| -> Option<Vec<Segment>> {
         curves[j].as_ref()?.segments(&layout, ends[j].as_ref()?, near_rim[j].as_ref())
     };
-    let cut: Vec<Option<Vec<Segment>>> =
-        (0..curves.len()).into_par_iter().map(segments).collect();
+    let cut: Vec<Option<Vec<Segment>>> = (0..curves.len()).into_par_iter().map(segments).collect();
     let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
     // a fold's integral on one plane may be a pair on another, whose impacts do not serve
     let alike = |(a, b): (&Segment, &Kind)| {

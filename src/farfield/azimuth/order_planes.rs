@@ -5,8 +5,10 @@ use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, another, trace};
 use super::places::{Azimuths, axis_gaps, scanned_rays, steps};
-use crate::farfield::assignment::near_grazing_taper::{Rim, taper};
-use crate::farfield::assignment::{Formula, FormulaRange, Spacing, Thresholds, caustic_disorder};
+use crate::farfield::assignment::near_grazing_taper::taper;
+use crate::farfield::assignment::{
+    Formula, FormulaRange, Rim, Spacing, Thresholds, caustic_disorder,
+};
 use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
 use crate::farfield::branch::samples::Side;
 use crate::farfield::deflection::guide::OrderGuide;
@@ -14,11 +16,13 @@ use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_grazing_layout::NearGrazingLayout;
+use crate::farfield::impact_integral::rays::Rays;
 use crate::farfield::settings::FarFieldSettings;
 use crate::math::half_turn::shares;
 use crate::trace::Tracer;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Planes too rough over azimuth for interpolation are so many times more; if that does not help, they
 /// say how planes are cut, and each that is asked for is traced by itself.
@@ -43,17 +47,40 @@ pub(crate) struct OrderPlanes {
 }
 
 impl OrderPlanes {
-    pub(crate) fn new(
+    /// All that an order's wave is made of: planes with an integral near the rim, planes without, or shares of
+    /// both where a body is on its way from nearly round. None where planes do not correspond.
+    pub(crate) fn of_order(
         tracer: &Tracer,
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
         guide: Option<&OrderGuide>,
+    ) -> Vec<Self> {
+        let new = |near_rim| Self::new(tracer, order, settings, edge, by, (near_rim, guide));
+        let deformation = tracer.shape().deformation();
+        let share = by.near_grazing_share(tracer.index().re, order, Rim::of(tracer), deformation);
+        let Some(mut with) = new(share > 0.0) else { return Vec::new() };
+        if share == 1.0 || with.layout.rim.is_none() {
+            return vec![with];
+        }
+        let Some(mut without) = new(false) else { return vec![with] };
+        with.scale(share);
+        without.scale(1.0 - share);
+        vec![with, without]
+    }
+
+    fn new(
+        tracer: &Tracer,
+        order: u32,
+        settings: &FarFieldSettings,
+        edge: Option<&Penumbra>,
+        by: &Thresholds,
+        (near_rim, guide): (bool, Option<&OrderGuide>),
     ) -> Option<Self> {
         let at = |finer: usize| {
             let guide = guide.filter(|_| finer == 1);
-            Self::at(tracer, order, settings, edge, by, (finer, guide))
+            Self::at(tracer, order, settings, edge, by, (near_rim, finer, guide))
         };
         let found = at(1)?;
         let rough = |found: &Self| {
@@ -70,14 +97,14 @@ impl OrderPlanes {
         }
     }
 
-    /// With `finer` times as many planes as usual, and what guides them.
+    /// With an integral near the rim where it serves, `finer` times as many planes as usual, and what guides them.
     fn at(
         tracer: &Tracer,
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
-        (finer, guide): (usize, Option<&OrderGuide>),
+        (near_rim, finer, guide): (bool, usize, Option<&OrderGuide>),
     ) -> Option<Self> {
         let azimuths = Azimuths::of(tracer.shape());
         let centre = axial_ray(tracer, order);
@@ -95,8 +122,8 @@ impl OrderPlanes {
         let caustic_disorder = caustic_disorder(tracer.shape(), order);
         let x = settings.size_parameter;
         let near_critical = by.near_critical_serves(order, tracer.shape().rotational_symmetry());
-        let gaps = axis_gaps(caustic_disorder);
-        let with_rim = gaps.iter().filter_map(|&gap| {
+        let gaps = axis_gaps(by.narrowest_axis_gap, caustic_disorder);
+        let with_rim = gaps.iter().filter(|_| near_rim).filter_map(|&gap| {
             let rim = rim_layout(by, tracer, order, x, caustic_disorder, gap)?;
             Some((Some(rim), gap))
         });
@@ -307,10 +334,15 @@ fn rim_layout(
     axis_gap: f64,
 ) -> Option<NearGrazingLayout> {
     let rim = Rim::of(tracer);
-    let rotational = rim != Rim::Uneven;
     let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rim)?;
-    let round = rotational || caustic_disorder < by.nearly_round;
-    Some(NearGrazingLayout::new(marks, rotational, round))
+    // rays that are alike at all azimuths go on smoothly enough beyond the rim where a bow holds them
+    let like = if rim == Rim::Sphere || (rim == Rim::Axial && order > 1) {
+        None
+    } else {
+        Some(Arc::new(Rays::of_sphere(order, tracer.index(), marks[0])?))
+    };
+    let one_plane_to = (rim != Rim::Uneven).then_some(by.largest_checked_sphere);
+    Some(NearGrazingLayout::new(marks, one_plane_to, order, like))
 }
 
 #[cfg(test)]

@@ -51,10 +51,9 @@ pub(super) fn scanned_rays(order: u32) -> usize {
 
 /// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
 /// and with the deformation of the outline.
-pub(super) fn axis_gaps(caustic_disorder: f64) -> Vec<f64> {
-    const NARROWEST: f64 = 0.02;
+pub(super) fn axis_gaps(narrowest: f64, caustic_disorder: f64) -> Vec<f64> {
     const WIDEST: f64 = 0.35;
-    let mut gaps = [3.0, 6.0].map(|f| (f * caustic_disorder).clamp(NARROWEST, WIDEST)).to_vec();
+    let mut gaps = [3.0, 6.0].map(|f| (f * caustic_disorder).clamp(narrowest, WIDEST)).to_vec();
     gaps.dedup();
     gaps
 }
@@ -76,8 +75,8 @@ mod tests {
 
     #[test]
     fn gaps_about_the_axis_grow_with_the_disorder() {
-        assert_eq!(axis_gaps(0.0), [0.02]);
-        assert_eq!(axis_gaps(0.05), [0.05 * 3.0, 0.05 * 6.0]);
-        assert_eq!(axis_gaps(1.0), [0.35]);
+        assert_eq!(axis_gaps(0.02, 0.0), [0.02]);
+        assert_eq!(axis_gaps(0.02, 0.05), [0.05 * 3.0, 0.05 * 6.0]);
+        assert_eq!(axis_gaps(0.02, 1.0), [0.35]);
     }
 }

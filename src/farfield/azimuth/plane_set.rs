@@ -27,6 +27,7 @@ use std::f64::consts::PI;
 pub struct PlaneSet<'a> {
     tracer: Tracer<'a>,
     size_parameter: f64,
+    /// Those of an order stand together.
     orders: Vec<OrderPlanes>,
     edge: Option<Penumbra>,
     /// Orders whose planes do not correspond.
@@ -69,18 +70,18 @@ impl<'a> PlaneSet<'a> {
     ) -> Self {
         let joined = settings.diffraction && settings.orders.contains(&0);
         let edge = joined.then(|| Penumbra::new(tracer, shadow, settings.size_parameter)).flatten();
-        let traced_orders: Vec<(u32, Option<OrderPlanes>)> = settings
+        let traced_orders: Vec<(u32, Vec<OrderPlanes>)> = settings
             .orders
             .par_iter()
             .map(|&order| {
                 let edge = edge.as_ref().filter(|_| order == 0);
                 let guide = guides.and_then(|guides| guides.of(order));
-                (order, OrderPlanes::new(tracer, order, settings, edge, by, guide))
+                (order, OrderPlanes::of_order(tracer, order, settings, edge, by, guide))
             })
             .collect();
         let unmatched: Vec<u32> =
-            traced_orders.iter().filter(|f| f.1.is_none()).map(|f| f.0).collect();
-        let orders = traced_orders.into_iter().filter_map(|f| f.1).collect();
+            traced_orders.iter().filter(|f| f.1.is_empty()).map(|f| f.0).collect();
+        let orders = traced_orders.into_iter().flat_map(|f| f.1).collect();
         let edge = edge.filter(|_| !unmatched.contains(&0));
         let size_parameter = settings.size_parameter;
         Self { tracer: tracer.clone(), size_parameter, orders, edge, unmatched }
@@ -98,9 +99,11 @@ impl<'a> PlaneSet<'a> {
 
     /// What became of each order.
     pub(crate) fn outcomes(&self) -> Vec<PlanesOutcome> {
-        let found = self.orders.iter().map(|planes| PlanesOutcome {
-            order: planes.order,
-            found: Some((planes.spacing(), planes.formulas())),
+        // where an order has two, the first has all formulas
+        let orders = self.orders.chunk_by(|a, b| a.order == b.order);
+        let found = orders.map(|planes| PlanesOutcome {
+            order: planes[0].order,
+            found: Some((planes[0].spacing(), planes[0].formulas())),
         });
         let lost = self.unmatched.iter().map(|&order| PlanesOutcome { order, found: None });
         found.chain(lost).collect()

@@ -6,8 +6,8 @@
 //! every plane, so that all their data vary smoothly with azimuth too.
 
 use super::fold::Fold;
-use super::landmark::Landmark;
 use super::guide::PlaneGuide;
+use super::landmark::Landmark;
 use super::scan::{END, Edge, Scan, ScannedRays};
 use super::scattering_plane::{Node, ScannedRay, ScatteringPlane};
 use crate::shape::Silhouette;

@@ -102,9 +102,9 @@ impl OrderGuide {
             let Some(all) = scans.iter().map(at).collect::<Option<Vec<_>>>() else {
                 return unknown();
             };
-            let agrees = weights.as_ref().is_none_or(|weights| {
-                agree(&blend(&all[..nodes], weights), &all[nodes])
-            });
+            let agrees = weights
+                .as_ref()
+                .is_none_or(|weights| agree(&blend(&all[..nodes], weights), &all[nodes]));
             if agrees { all[..nodes].to_vec() } else { unknown() }
         };
         let plane = |plane: usize| (0..count).flat_map(|i| ray(plane, i)).collect();

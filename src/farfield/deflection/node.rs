@@ -73,9 +73,8 @@ mod tests {
         let tracer = Tracer::new(&shape, 1.333.into(), 100.0, 2);
         let silhouette = shape.silhouette();
         let plane = ScatteringPlane::new(&tracer, 2, 1.1, [0.01, 0.0]);
-        let node = |alpha: f64| {
-            plane.node(&silhouette, alpha, 1.1, plane.angle_on_sphere(alpha)).unwrap()
-        };
+        let node =
+            |alpha: f64| plane.node(&silhouette, alpha, 1.1, plane.angle_on_sphere(alpha)).unwrap();
         let (here, there) = (node(0.7), node(0.7 + STEP));
         let moved = here.moved(&plane.rates(&silhouette, &here), STEP);
         let off = [

@@ -140,7 +140,11 @@ impl<'a> ScannedRays<'a> {
         for _ in 0..MOST_STEPS {
             let node = self.interpolated(alpha)?;
             let off = node.angle - angle;
-            if off * (a.angle - angle) > 0.0 { low = alpha } else { high = alpha }
+            if off * (a.angle - angle) > 0.0 {
+                low = alpha
+            } else {
+                high = alpha
+            }
             let rates = self.plane.rates(self.silhouette, &node);
             let step = -off / rates.angle;
             if step.abs() < SETTLED || high - low < 1e-14 {

@@ -8,8 +8,8 @@
 //! smooth drop.
 
 pub use super::node::Node;
-pub(crate) use super::node::ScannedRay;
 use super::node::Rates;
+pub(crate) use super::node::ScannedRay;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;

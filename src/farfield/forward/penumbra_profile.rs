@@ -200,9 +200,7 @@ fn channels(
         values.push([sine / wanted, ray.path / wanted.powi(4), ray.spreading / ray.cos]);
     }
     values.reverse();
-    let mut channels = Chebyshev::fit(&values, from, to);
-    channels.truncate(DEGREE);
-    Some(channels)
+    Some(Chebyshev::fit(&values, from, to).truncated(DEGREE))
 }
 
 /// The integrand on Gauss–Legendre nodes of both sides of the edge.

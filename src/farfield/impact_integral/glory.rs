@@ -74,7 +74,7 @@ impl Glory {
         let taper = FRESNEL_ZONES / (x * rate).sqrt();
         let from = inner - taper.min(0.9 * (inner - limits[0]));
         let to = outer + taper.min(0.9 * (limits[1] - outer));
-        let rays = Rays::between(curve, [from, to], RAYS - 1)?;
+        let rays = Rays::between(curve, [from, to], RAYS - 1, None)?;
         let [rise, fall] = [Window { start: from, full: inner }, Window { start: outer, full: to }];
         let weight = |sin: f64| rise.weight(sin) * (1.0 - fall.weight(sin)) * share(sin);
         let axis = PI * number as f64;

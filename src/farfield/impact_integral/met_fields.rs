@@ -8,6 +8,7 @@ use crate::trace::Meeting;
 use num_complex::Complex64;
 
 /// How a ray meets the surface.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MeetingChannels<T> {
     /// Squared cosine outside.
     pub square: T,

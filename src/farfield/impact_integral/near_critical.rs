@@ -157,7 +157,7 @@ pub(crate) fn segment(
     let rate = (curve.ray_at(inner + ASIDE)?.angle - before.angle).abs() / ASIDE;
     let taper = (FRESNEL_ZONES / (x * rate).sqrt()).min(MOST_ROOM * (inner - stretch.from));
     let rise = Window { start: inner - taper, full: inner };
-    let rays = Rays::between(curve, [rise.start, stretch.to], DEGREE)?;
+    let rays = Rays::between(curve, [rise.start, stretch.to], DEGREE, None)?;
     let end = curve.last_ray().alpha.sin() + TUNNEL * x.powf(-2.0 / 3.0);
     let off = |ray: &Node| (ray.angle - fold.angle).abs();
     let spread =

@@ -147,7 +147,8 @@ mod tests {
             let curve = DeflectionCurve::new(plane, &silhouette, scan).unwrap();
             let (rise, fall) =
                 (Window { start: 0.3, full: 0.42 }, Window { start: 0.48, full: 0.6 });
-            let rays = Rays::between(&curve, [0.3, 0.6], super::super::rays::RAYS - 1).unwrap();
+            let rays =
+                Rays::between(&curve, [0.3, 0.6], super::super::rays::RAYS - 1, None).unwrap();
             let weight = |sin: f64| rise.weight(sin) * (1.0 - fall.weight(sin));
             let integrand = rays.integrand(weight, 0.6, 2.0, index, x).unwrap();
             let before = Prefactor::between(&curve, [0.3, 0.31], x).unwrap();

@@ -8,6 +8,7 @@ use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Where the integral takes over, and the knots of its wave; common to all planes of an order.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,32 +22,44 @@ pub struct NearGrazingLayout {
     /// Knots between axes: angles from the anchor, and the slope of the reference path there relative
     /// to its impact.
     pub knots: Vec<Vec<[f64; 2]>>,
-    /// Degree of the polynomials through real rays.
+    /// Degree of the polynomials through real rays, or through what they have beside a sphere's.
     degree: usize,
+    /// Those of a sphere, where polynomials of all would not settle.
+    like: Option<Arc<Rays>>,
     /// Share of the stretch from `start` to the rim that is left out before the last ray.
     spare: f64,
-    /// Whether nothing depends on azimuth.
-    rotational: bool,
+    /// Size parameter up to which one plane stands for all azimuths; `None` where they differ.
+    one_plane_to: Option<f64>,
 }
 
 /// Most knots of a plane: more are only asked for between angles that are not to be trusted. One plane that stands for
 /// all may have more, up to a size parameter; the time of its integrals grows like the square of that.
 const MOST: f64 = 1500.0;
 const MOST_OF_ONE_PLANE: f64 = 5000.0;
-const LARGEST_OF_ONE_PLANE: f64 = 20_000.0;
 /// Knots per period of the wave against its reference.
 const KNOTS_PER_PERIOD: f64 = 4.0;
 
 impl NearGrazingLayout {
-    /// A layout without knots yet. Where nothing depends on azimuth, or next to nothing on nearly round bodies
-    /// (`round`), path and angles are analytic in the launch point to the rim and beyond; else only nearly so, and low
-    /// degrees must do.
-    pub fn new([start, full, bow]: [f64; 3], rotational: bool, round: bool) -> Self {
-        let degree = if round { RAYS - 1 } else { 5 };
+    /// A layout without knots yet. Where nothing depends on azimuth path and angles are analytic in the launch point
+    /// to the rim and beyond; else only nearly so, and low degrees must do for what is beside those of a sphere
+    /// (`like`).
+    pub fn new(
+        [start, full, bow]: [f64; 3],
+        one_plane_to: Option<f64>,
+        order: u32,
+        like: Option<Arc<Rays>>,
+    ) -> Self {
+        let round = like.is_none();
+        // by sums over partial waves, in the penumbra of raindrops of 0.41 to 0.6 mm
+        let degree = match order {
+            _ if round => RAYS - 1,
+            1 => 6,
+            _ => 7,
+        };
         // the last rays meet the surface so flatly that their differentials lose digits, and on
         // deformed particles path and angles have a part there that is odd in the grazing angle
         let spare = if round { 0.002 } else { 0.02 };
-        Self { start, full, bow, knots: Vec::new(), degree, spare, rotational }
+        Self { start, full, bow, knots: Vec::new(), degree, like, spare, one_plane_to }
     }
 
     /// The same with twice the knots.
@@ -67,7 +80,7 @@ impl NearGrazingLayout {
     /// Real rays of a plane from the start of the taper to the last that leaves.
     pub(crate) fn rays(&self, curve: &DeflectionCurve) -> Option<Rays> {
         let to = curve.last_ray().alpha.sin() - self.spare * (1.0 - self.start);
-        Rays::between(curve, [self.start, to], self.degree)
+        Rays::between(curve, [self.start, to], self.degree, self.like.as_deref())
     }
 
     /// Weight of the integral for a launch point `sin α`.
@@ -106,7 +119,7 @@ impl NearGrazingLayout {
         const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
         const FARTHEST_PENUMBRA: f64 = 0.5;
-        if !self.rotational {
+        if self.one_plane_to.is_none() {
             self.keeps_off_axis(curves, axis_gap)?;
         }
         let rays: Vec<Rays> =
@@ -132,10 +145,10 @@ impl NearGrazingLayout {
         let zone = (0.5 * x * deviation_slope(index, order, self.bow).1).cbrt().recip();
         let spare = 0.1 * caustic_disorder + zone + x.powf(-2.0 / 3.0);
         let stretch = [begin, start, bow_at, bow_at + dark];
-        let one = self.rotational && x <= LARGEST_OF_ONE_PLANE;
+        let one = self.one_plane_to.is_some_and(|largest| x <= largest);
         let most = if one { MOST_OF_ONE_PLANE } else { MOST };
         let all = knots(stretch, sense, [self.start, self.bow], spare, [x, most])?;
-        self.knots = if self.rotational {
+        self.knots = if self.one_plane_to.is_some() {
             between_axes(&all, marks[0].anchor, axis_gap)
         } else {
             vec![before_axis(all, &marks)]
@@ -298,7 +311,7 @@ mod tests {
 
     #[test]
     fn twice_the_knots_are_half_as_far() {
-        let mut layout = NearGrazingLayout::new([0.7, 0.8, 0.9], true, true);
+        let mut layout = NearGrazingLayout::new([0.7, 0.8, 0.9], Some(2e4), 4, None);
         layout.knots = vec![vec![[0.0, 1.0], [0.4, 3.0], [1.0, 2.0]]];
         let finer = layout.finer();
         assert_eq!(

@@ -5,15 +5,18 @@
 //! zones, and the coefficients of the curved interface ([`Grazing::whole`]) follow from them there.
 
 use super::integrand::Integrand;
-use super::met_fields::{MeetingChannels, transfer, turned_frames};
+use super::met_fields::{MeetingChannels, transfer};
+use super::ray_channels::{Channels, row, unwrap_turns};
 use super::smooth_part::SmoothPart;
 use crate::farfield::deflection::curve::DeflectionCurve;
-use crate::farfield::deflection::scattering_plane::Node;
+use crate::farfield::deflection::scan::Scan;
+use crate::farfield::deflection::scattering_plane::ScatteringPlane;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::optics::Grazing;
-use crate::trace::Meeting;
+use crate::shape::Shape;
+use crate::trace::{Meeting, Tracer};
 use num_complex::Complex64;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Real rays through which the polynomials pass.
 pub(crate) const RAYS: usize = 20;
@@ -28,24 +31,12 @@ const FEW: usize = 64;
 const FAR: f64 = 18.0;
 
 /// What the integral needs along a plane, as polynomials in the launch point `sin α`.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Rays {
     channels: Channels<Chebyshev<1>>,
     /// Launch points of the first and the last real ray.
     from: f64,
     to: f64,
-}
-
-/// What is known of a ray, or the polynomials through that of all.
-struct Channels<T> {
-    impact: T,
-    /// Path L without the part outside.
-    path: T,
-    spreading: T,
-    /// Path inside.
-    inside: T,
-    meetings: Vec<MeetingChannels<T>>,
-    /// Last turn of the frame.
-    last_turn: T,
 }
 
 /// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
@@ -64,17 +55,34 @@ impl Rays {
         Anchor { angle, impact, path: path - impact * angle }
     }
 
-    /// Trace real rays between two launch points.
+    /// Those of a sphere from a launch point to the rim, through which they are analytic.
+    pub(crate) fn of_sphere(order: u32, index: Complex64, from: f64) -> Option<Self> {
+        const SPARE: f64 = 0.002;
+        let shape = Shape::sphere();
+        // rays know nothing of the size
+        let tracer = Tracer::new(&shape, index, 1.0, order);
+        let plane = ScatteringPlane::new(&tracer, order, 0.0, [0.0; 2]);
+        let scan = Scan { nodes: 64 + 16 * order as usize, axis_gap: 0.02, limit: FRAC_PI_2 };
+        let silhouette = shape.silhouette();
+        let curve = DeflectionCurve::new(plane, &silhouette, scan)?;
+        Self::between(&curve, [from, 1.0 - SPARE], RAYS - 1, None)
+    }
+
+    /// Trace real rays between two launch points; polynomials of a `degree` pass through what they have beside
+    /// those of a sphere (`like`), or through all.
     pub(crate) fn between(
         curve: &DeflectionCurve,
         [from, to]: [f64; 2],
         degree: usize,
+        like: Option<&Self>,
     ) -> Option<Self> {
         let plane = curve.plane();
         let points = chebyshev::points(RAYS, from, to);
         let mut meetings: Vec<Meeting> = Vec::new();
         let mut rows = Vec::with_capacity(RAYS);
-        for sin in points {
+        let like: Option<Vec<Channels<f64>>> =
+            like.map(|like| points.iter().map(|&sin| like.channels.at(sin)).collect());
+        for &sin in &points {
             let node = curve.ray_at(sin)?;
             let [u, v] = node.place;
             plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings)?;
@@ -82,10 +90,14 @@ impl Rays {
         }
         unwrap_turns(&mut rows);
         let fit = |value: &dyn Fn(&Channels<f64>) -> f64| {
-            let values: Vec<[f64; 1]> = rows.iter().map(|row| [value(row)]).collect();
-            let mut series = Chebyshev::fit(&values, from, to);
-            series.truncate(degree);
-            series
+            let fit = |values: Vec<[f64; 1]>| Chebyshev::fit(&values, from, to);
+            let all = rows.iter().map(value);
+            let Some(like) = &like else {
+                return fit(all.map(|value| [value]).collect()).truncated(degree);
+            };
+            let round: Vec<[f64; 1]> = like.iter().map(|row| [value(row)]).collect();
+            let beside = all.zip(&round).map(|(value, [round])| [value - round]).collect();
+            fit(beside).truncated(degree) + fit(round)
         };
         let meeting = |hit: usize| MeetingChannels {
             square: fit(&|row| row.meetings[hit].square),
@@ -219,12 +231,7 @@ impl Rays {
 
     /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
     fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
-        let meeting = |channels: &MeetingChannels<Chebyshev<1>>| MeetingChannels {
-            square: channels.square.value(sin)[0],
-            radius: channels.radius.value(sin)[0],
-            turn: channels.turn.value(sin)[0],
-        };
-        let meetings = self.channels.meetings.iter().map(meeting);
+        let meetings = self.channels.meetings.iter().map(|meeting| meeting.at(sin));
         let [across, along] = transfer(meetings, self.channels.last_turn.value(sin)[0], index, x);
         let all = [across[0], along[1], -across[1], -along[0]];
         all.iter().all(|s| s.is_finite()).then_some(all)
@@ -236,55 +243,10 @@ fn at(series: &Chebyshev<1>, sin: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// What is known of one ray.
-fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Channels<f64>> {
-    let plane = curve.plane();
-    let (_, growing) = plane.frame(node.angle);
-    let across = plane.across();
-    let exit = &node.exit;
-    let impact = exit.reference.dot(growing);
-    let minor = plane.spread_across(exit, node.angle);
-    let path = exit.path + impact * node.angle + paths_outside(meetings)?;
-    let spreading = node.angle.sin().abs() / minor.abs();
-    let inside = path_inside(meetings)?;
-    let (meetings, last_turn) = turned_frames(meetings, across, across, exit.direction);
-    Some(Channels { impact, path, spreading, inside, meetings, last_turn })
-}
-
-/// The ways of the waves outside from their turning points to the first meeting and from the last.
-fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
-    let outside = |m: &Meeting| {
-        m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
-    };
-    Some(outside(meetings.first()?) + outside(meetings.last()?))
-}
-
-/// The optical path inside.
-fn path_inside(meetings: &[Meeting]) -> Option<f64> {
-    Some(meetings.last()?.path - meetings.first()?.path)
-}
-
-/// Unwrap the turns of frames, smooth along rows.
-fn unwrap_turns(rows: &mut [Channels<f64>]) {
-    let near = |turn: &mut f64, before: f64| *turn += TAU * ((before - *turn) / TAU).round();
-    for k in 1..rows.len() {
-        let (before, rest) = rows.split_at_mut(k);
-        let (before, row) = (&before[k - 1], &mut rest[0]);
-        for (meeting, before) in row.meetings.iter_mut().zip(&before.meetings) {
-            near(&mut meeting.turn, before.turn);
-        }
-        near(&mut row.last_turn, before.last_turn);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::farfield::deflection::scan::Scan;
-    use crate::farfield::deflection::scattering_plane::ScatteringPlane;
-    use crate::shape::Shape;
-    use crate::trace::Tracer;
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::PI;
 
     const INDEX: f64 = 1.333;
 
@@ -303,7 +265,7 @@ mod tests {
     fn channels_of_a_sphere_are_known() {
         for order in [2u32, 4] {
             with_curve(order, |curve| {
-                let rays = Rays::between(curve, [0.6, 0.999], RAYS - 1).unwrap();
+                let rays = Rays::between(curve, [0.6, 0.999], RAYS - 1, None).unwrap();
                 let p = f64::from(order);
                 for sin in [0.6, 0.8, 0.97, 1.0, 1.02f64] {
                     let anchor = rays.anchor(sin);
@@ -333,7 +295,7 @@ mod tests {
     #[test]
     fn fields_from_channels_are_those_of_traced_rays() {
         with_curve(3, |curve| {
-            let rays = Rays::between(curve, [0.3, 0.8], RAYS - 1).unwrap();
+            let rays = Rays::between(curve, [0.3, 0.8], RAYS - 1, None).unwrap();
             for sin in [0.4, 0.55, 0.7] {
                 let node = curve.ray_at(sin).unwrap();
                 let traced = curve.plane().transfer(&node.exit, node.angle);
@@ -346,25 +308,5 @@ mod tests {
                 assert!(both > 0.0 || traced.s2.norm() < 1e-3, "{sin}");
             }
         });
-    }
-
-    #[test]
-    fn turns_are_unwrapped_along_rows() {
-        let row = |a: f64, last_turn: f64| Channels {
-            impact: 0.0,
-            path: 0.0,
-            spreading: 1.0,
-            inside: 1.0,
-            meetings: [a, 0.1]
-                .map(|turn| MeetingChannels { square: 1.0, radius: 1.0, turn })
-                .into(),
-            last_turn,
-        };
-        let mut rows = [row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
-        unwrap_turns(&mut rows);
-        let first = |k: usize| rows[k].meetings[0].turn;
-        assert!((first(1) - (TAU - 3.1)).abs() < 1e-15 && (first(2) - (TAU - 3.0)).abs() < 1e-15);
-        assert!((rows[2].last_turn - (3.0 - TAU)).abs() < 1e-15);
-        assert_eq!(rows[2].meetings[1].turn, 0.1);
     }
 }

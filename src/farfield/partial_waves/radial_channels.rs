@@ -22,9 +22,7 @@ pub(super) struct Channels {
 impl Channels {
     pub(super) fn through(rays: &[RadialRay], from: f64, to: f64) -> Self {
         fn fit<const C: usize>(values: &[[f64; C]], from: f64, to: f64) -> Chebyshev<C> {
-            let mut series = Chebyshev::fit(values, from, to);
-            series.truncate(DEGREE);
-            series
+            Chebyshev::fit(values, from, to).truncated(DEGREE)
         }
         let one = |value: &dyn Fn(&RadialRay) -> f64| {
             fit(&rays.iter().map(|ray| [value(ray)]).collect::<Vec<_>>(), from, to)

@@ -3,7 +3,7 @@
 use crate::hdf5::TableError;
 use crate::hdf5::file::opened::OpenFile;
 use crate::hdf5::format::methods::read_methods;
-use crate::phase_table::variables::record::{BY_DIRECTION, ENERGY, LATER, LEFT_OUT, PLAIN, Record};
+use crate::phase_table::variables::record::{BY_DIRECTION, ENERGY, LATER, PLAIN, Record, TELLING};
 use crate::phase_table::{ERROR_BANDS, EnergyBudget, MethodRange};
 use num_complex::Complex64;
 
@@ -49,13 +49,16 @@ pub fn read_records(
         Some(_) => read_field(file, BY_DIRECTION, leading, wavelengths, Some(bands))?,
         None => vec![f64::NAN; wavelengths * ERROR_BANDS],
     };
-    let left_out = match file.dataset(LEFT_OUT)? {
-        Some(_) => read_field(file, LEFT_OUT, leading, wavelengths, None)?,
-        None => vec![0.0; wavelengths],
-    };
+    let telling = TELLING.map(|(name, _, nothing, _)| match file.dataset(name)? {
+        Some(_) => read_field(file, name, leading, wavelengths, None),
+        None => Ok(vec![nothing; wavelengths]),
+    });
+    let [left_out, outside] = telling;
+    let (left_out, outside) = (left_out?, outside?);
     let methods = read_methods(file, leading)?;
     let record = |(i, energy)| Record {
         index: Complex64::new(real[i], imag[i]),
+        outside_index: outside[i],
         scattering_cross_section: scattering[i],
         extinction_cross_section: extinction[i],
         absorption_cross_section: absorbed(i),

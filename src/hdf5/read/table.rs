@@ -127,6 +127,7 @@ pub fn slab_at(
     Ok(Slab {
         wavelength: axes.wavelength[index],
         index: record.index,
+        outside_index: record.outside_index,
         values,
         caustic_order,
         scattering_cross_section: record.scattering_cross_section,

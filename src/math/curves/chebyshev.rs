@@ -13,7 +13,7 @@ pub fn points(count: usize, from: f64, to: f64) -> Vec<f64> {
 }
 
 /// A vector-valued polynomial in Chebyshev form.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Chebyshev<const C: usize> {
     from: f64,
     to: f64,
@@ -71,16 +71,50 @@ impl<const C: usize> Chebyshev<C> {
         std::array::from_fn(|c| first[c] + t * last[c] - before[c])
     }
 
-    /// Keep terms up to this degree: the polynomial nearest in the least-squares sense, which
+    /// The terms up to this degree: the polynomial nearest in the least-squares sense, which
     /// extrapolates without taking up what in the values is not smooth.
-    pub fn truncate(&mut self, degree: usize) {
+    pub fn truncated(mut self, degree: usize) -> Self {
         self.coefficients.truncate(degree + 1);
+        self
+    }
+}
+
+impl<const C: usize> std::ops::Add for Chebyshev<C> {
+    type Output = Self;
+
+    /// The sum of two polynomials on the same interval.
+    fn add(self, other: Self) -> Self {
+        debug_assert!(self.from == other.from && self.to == other.to);
+        let (mut long, short) = if self.coefficients.len() < other.coefficients.len() {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        for (sum, term) in long.coefficients.iter_mut().zip(short.coefficients) {
+            for (sum, term) in sum.iter_mut().zip(term) {
+                *sum += term;
+            }
+        }
+        long
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn polynomials_add_whatever_their_degrees() {
+        let fit = |f: fn(f64) -> f64, count| {
+            let values: Vec<[f64; 1]> = points(count, -1.0, 2.0).iter().map(|&x| [f(x)]).collect();
+            Chebyshev::fit(&values, -1.0, 2.0)
+        };
+        let (square, line) = (fit(|x| x * x, 5), fit(|x| 1.0 + 3.0 * x, 2));
+        for sum in [square.clone() + line.clone(), line + square] {
+            assert!((sum.at(1.5).0[0] - 7.75).abs() < 1e-14);
+            assert!((sum.at(3.0).1[0] - 9.0).abs() < 1e-13, "the slope too");
+        }
+    }
 
     #[test]
     fn an_analytic_function_is_met_with_its_slope() {

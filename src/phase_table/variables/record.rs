@@ -13,6 +13,7 @@ use num_complex::Complex64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     pub index: Complex64,
+    pub outside_index: f64,
     pub scattering_cross_section: f64,
     pub extinction_cross_section: f64,
     pub absorption_cross_section: f64,
@@ -34,6 +35,7 @@ impl From<&Slab> for Record {
     fn from(slab: &Slab) -> Record {
         Record {
             index: slab.index,
+            outside_index: slab.outside_index,
             scattering_cross_section: slab.scattering_cross_section,
             extinction_cross_section: slab.extinction_cross_section,
             absorption_cross_section: slab.absorption_cross_section,
@@ -103,6 +105,17 @@ pub const LATER: [(&str, &str, &str, Getter<Record>); 4] = [
     }),
 ];
 
+/// The same, written only where they tell something: name, words, the value that tells nothing, value.
+pub const TELLING: [(&str, &str, f64, Getter<Record>); 2] = [
+    (
+        "left_out_share",
+        "share of the scattered power in orders that the scene's list leaves out",
+        0.0,
+        |r| r.left_out,
+    ),
+    ("outside_index", "refractive index of the surroundings", 1.0, |r| r.outside_index),
+];
+
 /// Variables of the energy budget beside the orders.
 pub const ENERGY: [(&str, &str, Getter<EnergyBudget>); 4] = [
     ("energy_absorbed", "power absorbed", |e| e.absorbed),
@@ -123,12 +136,11 @@ pub fn write_records<S: Store>(
         let values: Vec<f64> = records.iter().map(|r| r.as_ref().map_or(f64::NAN, value)).collect();
         write_field(file, (name, units, words), &values, dimensions, shape)?;
     }
-    // A share of 0 says nothing.
-    let left_out: Vec<f64> =
-        records.iter().map(|r| r.as_ref().map_or(0.0, |r| r.left_out)).collect();
-    if left_out.iter().any(|&share| share != 0.0) {
-        let words = "share of the scattered power in orders that the scene's list leaves out";
-        write_field(file, (LEFT_OUT, "1", words), &left_out, dimensions, shape)?;
+    for (name, words, nothing, value) in TELLING {
+        let values: Vec<f64> = records.iter().map(|r| r.as_ref().map_or(nothing, value)).collect();
+        if values.iter().any(|&value| value != nothing) {
+            write_field(file, (name, "1", words), &values, dimensions, shape)?;
+        }
     }
     write_errors(file, records, dimensions, shape)?;
 
@@ -147,9 +159,6 @@ pub fn write_records<S: Store>(
 
 /// The variable with the stated error by scattering angle.
 pub const BY_DIRECTION: &str = "error_estimate_by_direction";
-
-/// The variable with the share of orders left out by a list.
-pub const LEFT_OUT: &str = "left_out_share";
 
 fn write_errors<S: Store>(
     file: &S,

@@ -121,6 +121,7 @@ impl TableJob<'_> {
         Slab {
             wavelength: self.wavelength,
             index: t.index(),
+            outside_index: 1.0,
             values,
             caustic_order: None,
             scattering_cross_section: sections.scattering * shadow,

@@ -74,6 +74,7 @@ pub(crate) fn slab(
     Ok(Slab {
         wavelength,
         index,
+        outside_index: 1.0,
         asymmetry: asymmetry(&values, (&weights.0, &weights.1), &axes.theta),
         values,
         caustic_order: None,
