@@ -69,7 +69,7 @@ mod tests {
         let even = Azimuths::of(&Shape::spheroid(0.9, 0.3).unwrap());
         let (some, more) = (even.places(0.01, 44), even.places(1e-4, 44));
         assert!(some.len() == 45 && more.len() > 70);
-        assert!(some[0] == 0.0 && some[44] == PI && (some[11] - PI / 4.0).abs() < 1e-15);
+        assert!(some[0] == 0.0 && (some[44] - PI).abs() + (some[11] - PI / 4.0).abs() < 1e-14);
         assert_eq!(Azimuths::of(&Shape::sphere()).places(0.01, 44), [0.0]);
     }
 

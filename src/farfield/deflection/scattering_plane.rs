@@ -37,8 +37,8 @@ const STEPS: usize = 12;
 /// Step (radians) that is taken without tracing again: what is linear in it follows from the ray's differentials, what is
 /// not is below rounding in a path, and fields err by some times the step.
 pub(super) const SETTLED: f64 = 1e-6;
-/// The same (radii) next to caustics, where differentials change faster.
-const SETTLED_NEAR_CAUSTIC: f64 = 1e-8;
+/// The same (radii) next to caustics: what parts the two rays there is divided by the root of a small angle.
+const SETTLED_NEAR_CAUSTIC: f64 = 1e-13;
 /// Closest approach of a launch to the rim, in α.
 pub const GRAZING: f64 = 1e-4;
 /// Largest turn of the launch azimuth between neighbouring nodes.
@@ -186,6 +186,7 @@ impl<'a> ScatteringPlane<'a> {
         let (_, growing) = self.frame(angle);
         let (growing, across) = (Vec3::<T>::real(growing), Vec3::<T>::real(self.across));
         let mut place = guess;
+        let mut last_step = f64::INFINITY;
         for _ in 0..2 * STEPS {
             let exit = self.exit(place)?;
             let s = exit.direction;
@@ -199,9 +200,10 @@ impl<'a> ScatteringPlane<'a> {
                 return None;
             }
             place = [place[0] - step[0], place[1] - step[1]];
-            if size < SETTLED_NEAR_CAUSTIC {
+            if size < SETTLED_NEAR_CAUSTIC || (size < 1e-9 && size > 0.5 * last_step) {
                 return Some((place, exit.moved([-step[0], -step[1]])));
             }
+            last_step = size;
         }
         None
     }
