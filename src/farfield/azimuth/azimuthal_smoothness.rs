@@ -6,15 +6,15 @@
 //! faster than there are planes. So every plane is compared with the polynomial through its
 //! neighbours.
 
-use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
+use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment, SingleKnot};
 
 /// Weights of the neighbours one, two and three steps away on either side, of the polynomial of fifth
 /// degree through them, half-way.
 const WEIGHTS: [f64; 3] = [0.75, -0.3, 0.05];
 
 /// Largest difference between planes at even steps over a half-turn and what their neighbours make
-/// of them: the phase of their paths at equal angles, or waves relative to their largest. Infinite
-/// where segments are of different kinds.
+/// of them: the phase of their paths at equal angles, or waves relative to their largest; the phase of
+/// such a wave counts as much as the wave is there. Infinite where segments are of different kinds.
 pub(crate) fn azimuthal_smoothness(planes: &[Vec<Segment>], size_parameter: f64) -> f64 {
     if planes.len() <= WEIGHTS.len() {
         return 0.0;
@@ -31,6 +31,7 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
     let last = planes.len() - 1;
     // planes beyond either end are mirror images
     let around = |j: usize, k: usize| [j.abs_diff(k), last - last.abs_diff(j + k)];
+    let is_wave = planes[0][s].kind == Kind::Wave;
     let (mut paths, mut waves, mut size) = (0.0f64, 0.0f64, 0.0f64);
     for j in 0..=last {
         for (i, knot) in planes[j][s].knots.iter().enumerate() {
@@ -42,7 +43,12 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
             }
             let (knot, expected) = (knot.single(), expected.single());
             let path = knot.path + knot.path_slope * (expected.angle - knot.angle);
-            paths = paths.max((expected.path - path).abs());
+            let strength = |knot: &SingleKnot| {
+                let parts = knot.amplitudes[..2].iter().flat_map(|s| [s.re.abs(), s.im.abs()]);
+                parts.fold(0.0, f64::max)
+            };
+            let counts = if is_wave { strength(&knot) } else { 1.0 };
+            paths = paths.max((expected.path - path).abs() * counts);
             // S1 and S2, which are even in azimuth
             for (found, expected) in knot.amplitudes[..2].iter().zip(&expected.amplitudes) {
                 let off = expected - found;
@@ -51,8 +57,7 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
             }
         }
     }
-    let wave = planes[0][s].kind == Kind::Wave;
-    (size_parameter * paths).max(if wave { waves / size } else { 0.0 })
+    if is_wave { (size_parameter * paths).max(waves) / size } else { size_parameter * paths }
 }
 
 fn add(sum: &mut Knot, weight: f64, knot: &Knot) {
@@ -64,7 +69,6 @@ fn add(sum: &mut Knot, weight: f64, knot: &Knot) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::farfield::branch::knots::SingleKnot;
     use std::f64::consts::PI;
 
     const X: f64 = 1000.0;

@@ -26,9 +26,10 @@ use std::sync::Arc;
 /// pairs, and for those with rim waves, whose phases change faster.
 const HALF_TURN_STEPS: usize = 44;
 const HALF_TURN_STEPS_RIM: usize = 60;
-/// Planes too rough over azimuth for interpolation are so many times more; if that does not help, they
+/// Planes too rough over azimuth for interpolation are so many times more, then so many; if that does not help, they
 /// say how planes are cut, and each that is asked for is traced by itself.
-const FINER: usize = 4;
+const FINER: usize = 2;
+const FINEST: usize = 4;
 
 /// Segments of one order at azimuths `j π / (count - 1)`.
 pub(crate) struct OrderPlanes {
@@ -99,8 +100,11 @@ impl OrderPlanes {
         if !even || order > by.last_smoothed_order || !rough(&found) {
             return Some(found);
         }
-        match at(FINER) {
-            Some(finer) if order == 0 || !rough(&finer) => Some(finer),
+        if let Some(finer) = at(FINER).filter(|finer| !rough(finer)) {
+            return Some(finer);
+        }
+        match at(FINEST) {
+            Some(finest) if order == 0 || !rough(&finest) => Some(finest),
             _ if order == 0 => Some(found),
             _ => Some(Self { azimuths: Azimuths::Single, ..found }),
         }

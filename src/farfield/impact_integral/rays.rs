@@ -100,11 +100,11 @@ impl Rays {
             let fit = |values: Vec<[f64; 1]>| Chebyshev::fit(&values, from, to);
             let all = rows.iter().map(value);
             let Some(like) = &like else {
-                return fit(all.map(|value| [value]).collect()).truncated(degree);
+                return fit(all.map(|value| [value]).collect()).truncated(degree).rounded();
             };
             let round: Vec<[f64; 1]> = like.iter().map(|row| [value(row)]).collect();
             let beside = all.zip(&round).map(|(value, [round])| [value - round]).collect();
-            fit(beside).truncated(degree) + fit(round)
+            (fit(beside).truncated(degree) + fit(round)).rounded()
         };
         let meeting = |hit: usize| MeetingChannels {
             square: fit(&|row| row.meetings[hit].square),
@@ -156,10 +156,10 @@ impl Rays {
             let sin = self.from + k as f64 * step;
             let weight = weight(sin) * step;
             let matrix = self.transfer(sin, index, x)?;
-            let (spreading, _) = at(&self.channels.spreading, sin);
+            let [spreading] = self.channels.spreading.value(sin);
             let (impact, rate) = self.impact(sin);
-            let (path, _) = self.path(sin);
-            let (inside, _) = at(&self.channels.inside, sin);
+            let [path] = self.channels.path.value(sin);
+            let [inside] = self.channels.inside.value(sin);
             let absorbed = (-x * index.im * inside / index.re).exp();
             let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
             integrand.push(impact, path, matrix.map(|m| m * factor));
@@ -191,7 +191,7 @@ impl Rays {
     /// S1 … S4 of the ray at a launch point, with the phases of the waves outside.
     fn transfer(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
         let meetings = self.channels.meetings.iter().map(|meeting| meeting.at(sin));
-        let [across, along] = transfer(meetings, at(&self.channels.last_turn, sin).0, index, x);
+        let [across, along] = transfer(meetings, self.channels.last_turn.value(sin)[0], index, x);
         let all = [across[0], along[1], -across[1], -along[0]];
         all.iter().all(|s| s.is_finite()).then_some(all)
     }
@@ -200,7 +200,7 @@ impl Rays {
 impl Channels<Chebyshev<1>> {
     /// All at a launch point.
     fn at(&self, sin: f64) -> Channels<f64> {
-        let at = |series: &Chebyshev<1>| at(series, sin).0;
+        let at = |series: &Chebyshev<1>| series.value(sin)[0];
         Channels {
             impact: at(&self.impact),
             path: at(&self.path),
@@ -214,7 +214,7 @@ impl Channels<Chebyshev<1>> {
 
 impl MeetingChannels<Chebyshev<1>> {
     fn at(&self, sin: f64) -> MeetingChannels<f64> {
-        let at = |series: &Chebyshev<1>| at(series, sin).0;
+        let at = |series: &Chebyshev<1>| series.value(sin)[0];
         MeetingChannels { square: at(&self.square), radius: at(&self.radius), turn: at(&self.turn) }
     }
 }

@@ -59,6 +59,30 @@ impl<const C: usize> Chebyshev<C> {
         (value, slope)
     }
 
+    /// Values alone, by Clenshaw's recurrence.
+    pub fn value(&self, x: f64) -> [f64; C] {
+        let t = (2.0 * x - (self.from + self.to)) / (self.to - self.from);
+        let (mut b1, mut b2) = ([0.0; C], [0.0; C]);
+        for row in self.coefficients.iter().skip(1).rev() {
+            for c in 0..C {
+                (b1[c], b2[c]) = (row[c] + 2.0 * t * b1[c] - b2[c], b1[c]);
+            }
+        }
+        let first = self.coefficients.first().copied().unwrap_or([0.0; C]);
+        std::array::from_fn(|c| first[c] + t * b1[c] - b2[c])
+    }
+
+    /// Without the last terms that are nothing but rounding.
+    pub fn rounded(mut self) -> Self {
+        const ROUNDING: f64 = 1e-15;
+        let size = |row: &[f64; C]| row.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+        let largest = self.coefficients.iter().map(size).fold(0.0, f64::max);
+        while self.coefficients.last().is_some_and(|row| size(row) < ROUNDING * largest) {
+            self.coefficients.pop();
+        }
+        self
+    }
+
     /// The terms up to this degree: the polynomial nearest in the least-squares sense, which
     /// extrapolates without taking up what in the values is not smooth.
     pub fn truncated(mut self, degree: usize) -> Self {
@@ -111,6 +135,8 @@ mod tests {
         for x in [-1.0, 0.3, 2.9] {
             let ([value], [slope]) = series.at(x);
             assert!((value - x.exp()).abs() < 1e-13 * 20.0 && (slope - x.exp()).abs() < 1e-11);
+            assert!((series.value(x)[0] - value).abs() < 1e-13 * 20.0, "{x}");
+            assert!((series.clone().rounded().value(x)[0] - value).abs() < 1e-12, "{x}");
         }
     }
 }
