@@ -118,7 +118,7 @@ impl NearGrazingLayout {
         const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
         const FARTHEST_PENUMBRA: f64 = 0.5;
-        if !self.one_plane_to.is_some() {
+        if self.one_plane_to.is_none() {
             self.keeps_off_axis(curves, axis_gap)?;
         }
         let marks: Vec<Marks> =
