@@ -23,6 +23,12 @@ impl Rim {
             (false, false) => Self::Uneven,
         }
     }
+
+    /// Whether rays of an order go on beyond the rim smoothly enough for polynomials through all of a ray. Those of
+    /// order 1 have no bow before the last: their penumbra hangs on what lies beyond alone.
+    pub fn is_settled(self, order: u32) -> bool {
+        self == Self::Sphere || (self == Self::Axial && order > 1)
+    }
 }
 
 #[cfg(test)]

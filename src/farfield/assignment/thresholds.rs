@@ -104,8 +104,8 @@ pub struct Thresholds {
     /// Raindrops in bands of 2° against sums over partial waves at x = 600: order 1 with the penumbra behind its last
     /// ray is within 6 % of the power to 90° up to 0.6 mm (0.03; without, nothing is there), and polynomials through
     /// rays stray beyond the rim from 0.7 mm on; order 3 is within 2 % at 0.41 mm and 5 % at 0.5 mm (0.046; without, up
-    /// to 60 % of it is missing), and its bow is not as good as that of single rays at 0.6 mm. The penumbra of order 2 reaches to the axis, where only waves that do not
-    /// depend on azimuth can be added up.
+    /// to 60 % of it is missing), and its bow is not as good as that of single rays at 0.6 mm. The penumbra of order 2
+    /// reaches to the axis, where only waves that do not depend on azimuth can be added up.
     pub near_grazing_deformation: [[f64; 2]; 3],
     /// Index above which a bow is far enough from the forward direction for that integral.
     pub near_grazing_index: f64,
@@ -272,13 +272,13 @@ impl Thresholds {
     /// Share of an order's wave near the rim that the integral over its rays there makes, for a body of a
     /// `deformation` (`Shape::deformation`).
     pub fn near_grazing_share(&self, index: f64, order: u32, rim: Rim, deformation: f64) -> f64 {
-        if order < self.first_near_grazing_order || index <= self.near_grazing_index {
+        if order < self.first_near_grazing_order.max(1) || index <= self.near_grazing_index {
             return 0.0;
         }
-        // order 1 has no bow before its last ray: its penumbra hangs on what lies beyond the rim alone
-        let settled = rim == Rim::Sphere || (rim == Rim::Axial && order > 1);
         match self.near_grazing_deformation.get(order as usize - 1) {
-            Some(range) if !settled => 1.0 - eased(*range, f64::from(order) * deformation),
+            Some(range) if !rim.is_settled(order) => {
+                1.0 - eased(*range, f64::from(order) * deformation)
+            }
             _ => 1.0,
         }
     }
@@ -320,4 +320,33 @@ fn eased([from, to]: [f64; 2], value: f64) -> f64 {
     }
     let t = ((value - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The integral near the rim fades with deformation without a jump, and never serves reflection.
+    #[test]
+    fn the_integral_near_the_rim_fades() {
+        let by = Thresholds::MEASURED;
+        let share = |order, rim, deformation| by.near_grazing_share(1.333, order, rim, deformation);
+        for order in [1, 3] {
+            let [from, to] = by.near_grazing_deformation[order as usize - 1];
+            let at = |value: f64| share(order, Rim::Uneven, value / f64::from(order));
+            assert_eq!([at(0.0), at(0.999 * from), at(1.001 * to)], [1.0, 1.0, 0.0]);
+            let step = |k: i32| at(from + (to - from) * f64::from(k) / 1000.0);
+            for k in 0..1000 {
+                let fall = step(k) - step(k + 1);
+                assert!((0.0..2e-3).contains(&fall), "order {order}: {fall}");
+            }
+        }
+        for deformation in [0.0, 0.3] {
+            assert_eq!(share(1, Rim::Sphere, deformation), 1.0);
+            assert_eq!(share(2, Rim::Axial, deformation), 1.0);
+            assert_eq!(share(2, Rim::Uneven, deformation), 0.0);
+            assert_eq!(share(4, Rim::Uneven, deformation), 1.0);
+            assert_eq!(share(0, Rim::Sphere, deformation), 0.0);
+        }
+    }
 }

@@ -5,6 +5,7 @@ mod axis_waves;
 pub mod azimuthal_smoothness;
 mod blend;
 pub mod cut_layout;
+mod formulas;
 pub mod matching;
 pub mod order_planes;
 pub mod plane_set;

@@ -5,10 +5,8 @@ use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, another, trace};
 use crate::farfield::assignment::near_grazing_taper::taper;
-use crate::farfield::assignment::{
-    Formula, FormulaRange, Rim, Spacing, Thresholds, caustic_disorder,
-};
-use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment};
+use crate::farfield::assignment::{Rim, Spacing, Thresholds, caustic_disorder};
+use crate::farfield::branch::knots::{CHANNELS, Knot, Segment};
 use crate::farfield::branch::samples::Side;
 use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
@@ -38,9 +36,9 @@ pub(crate) struct OrderPlanes {
     /// How the planes were cut.
     pub layout: CutLayout,
     /// Lowest and highest angle of each segment over all planes, with some room.
-    spans: Vec<(f64, f64)>,
+    pub(super) spans: Vec<(f64, f64)>,
     /// How many segments there are before those of the penumbra.
-    beside_penumbra: usize,
+    pub(super) beside_penumbra: usize,
     /// Waves about the axis, where nothing depends on azimuth.
     pub about_axis: Vec<Glory>,
     pub axis_gap: f64,
@@ -200,29 +198,6 @@ impl OrderPlanes {
         }
     }
 
-    /// Where formulas stand for single rays.
-    pub(crate) fn formulas(&self) -> Vec<FormulaRange> {
-        let Some(segments) = self.planes.first() else { return Vec::new() };
-        let near_rim = self.layout.rim.as_ref().map_or(0, |rim| rim.knots.len());
-        let first_near_rim = self.beside_penumbra - near_rim;
-        let formula = |(number, segment): (usize, &Segment)| {
-            let formula = match segment.kind {
-                Kind::Plain { .. } => return None,
-                Kind::Pair { .. } => Formula::AiryPair,
-                Kind::Wave if number >= self.beside_penumbra => Formula::Penumbra,
-                Kind::Wave if number >= first_near_rim => Formula::NearGrazing,
-                Kind::Wave => Formula::NearCritical,
-            };
-            let (low, high) = self.spans[number];
-            Some(FormulaRange { formula, theta: scattering_angles(low, high) })
-        };
-        let about_axis = self
-            .about_axis
-            .iter()
-            .map(|wave| FormulaRange { formula: Formula::AxialRings, theta: wave.theta() });
-        merged(segments.iter().enumerate().filter_map(formula).chain(about_axis))
-    }
-
     /// Whether the order has an axis gap about θ = 0 or π.
     pub(crate) fn crosses(&self, axis: f64) -> bool {
         let near = |knot: &Knot| {
@@ -297,33 +272,6 @@ impl OrderPlanes {
     }
 }
 
-/// Ranges of the same formula that meet, as one.
-fn merged(ranges: impl Iterator<Item = FormulaRange>) -> Vec<FormulaRange> {
-    let mut all: Vec<FormulaRange> = Vec::new();
-    for range in ranges {
-        let [low, high] = range.theta;
-        let meets = |other: &&mut FormulaRange| {
-            other.formula == range.formula && low <= other.theta[1] && other.theta[0] <= high
-        };
-        match all.iter_mut().find(meets) {
-            Some(other) => other.theta = [low.min(other.theta[0]), high.max(other.theta[1])],
-            None => all.push(range),
-        }
-    }
-    all
-}
-
-/// Scattering angles of a stretch of unwrapped ones.
-fn scattering_angles(low: f64, high: f64) -> [f64; 2] {
-    let theta = |angle: f64| {
-        let turned = angle.rem_euclid(TAU);
-        turned.min(TAU - turned)
-    };
-    let [a, b] = [theta(low), theta(high)];
-    let meets = |axis: f64| ((high - axis) / TAU).floor() >= ((low - axis) / TAU).ceil();
-    [if meets(0.0) { 0.0 } else { a.min(b) }, if meets(PI) { PI } else { a.max(b) }]
-}
-
 /// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
 /// and with the deformation of the outline.
 fn axis_gaps(narrowest: f64, caustic_disorder: f64) -> Vec<f64> {
@@ -357,8 +305,7 @@ fn rim_layout(
 ) -> Option<NearGrazingLayout> {
     let rim = Rim::of(tracer);
     let marks = taper(by, tracer.index().re, order, x, caustic_disorder, axis_gap, rim)?;
-    // rays that are alike at all azimuths go on smoothly enough beyond the rim where a bow holds them
-    let like = if rim == Rim::Sphere || (rim == Rim::Axial && order > 1) {
+    let like = if rim.is_settled(order) {
         None
     } else {
         Some(Arc::new(Rays::of_sphere(order, tracer.index(), marks[0])?))
@@ -381,19 +328,5 @@ impl Azimuths {
                 (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn unwrapped_stretches_fold_onto_scattering_angles() {
-        let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() + (b - d).abs() < 1e-12;
-        assert!(near(scattering_angles(1.0, 2.0), [1.0, 2.0]));
-        assert!(near(scattering_angles(TAU - 2.0, TAU - 1.0), [1.0, 2.0]));
-        assert!(near(scattering_angles(PI - 0.1, PI + 0.3), [PI - 0.3, PI]));
-        assert!(near(scattering_angles(-0.2, 0.1), [0.0, 0.2]));
     }
 }
