@@ -34,6 +34,7 @@ mod energy;
 mod error;
 mod header;
 mod order_power;
+mod prepared;
 mod series;
 mod t_matrix;
 
@@ -45,9 +46,9 @@ pub use error::SimulateError;
 pub use header::header;
 
 use crate::farfield::assignment::{Assignment, Method};
-use crate::farfield::patches::{gaussian_filter, sheets};
+use crate::farfield::patches::gaussian_filter;
 use crate::farfield::sphere_check::{CheckedMethod, SphereCheck};
-use crate::farfield::{ErrorEstimate, FarField, FarFieldSettings};
+use crate::farfield::{ErrorEstimate, FarField};
 use crate::medium::Light;
 use crate::phase_table::{Axes, ForwardPeak, InvalidTable, PhaseTable, Slab, TableHeader};
 use crate::plan::{Engine, Plan, PlanError};
@@ -55,12 +56,12 @@ use crate::population;
 use crate::scene::{Diffraction, Interference, Scene};
 use crate::series::SeriesError;
 use crate::tabulate::slab::{Tabulator, Values};
-use crate::trace::Wavefront;
 use cross_sections::straight_ahead;
 use energy::{energy, imbalance, left_out};
 use header::header_of;
 use num_complex::Complex64;
 use order_power::{doubts, mark, order_powers, refuse_imbalance};
+use prepared::{Prepared, far_field};
 use std::f64::consts::TAU;
 
 /// Compute a table, slab by slab, in the order of the scene's wavelengths; `sink` gets each slab
@@ -101,9 +102,9 @@ pub fn in_turn<E: From<SimulateError>>(
 ) -> Result<(), E> {
     let plan = Plan::new(scene).map_err(SimulateError::from)?;
     let header = header_of(scene, &plan, String::new());
-    let steps = drops::steps_of_kinds(scene, &plan)?;
+    let prepared = Prepared::of_kinds(scene, &plan, scene.wavelengths.len())?;
     for (i, &wavelength) in scene.wavelengths.iter().enumerate() {
-        sink(i, checked_slab(scene, &plan, &steps, &header, wavelength)?)?;
+        sink(i, checked_slab(scene, &plan, &prepared, &header, wavelength)?)?;
     }
     Ok(())
 }
@@ -141,21 +142,21 @@ pub fn table(scene: &Scene) -> Result<PhaseTable, SimulateError> {
 /// A wavelength outside the medium's data, an energy budget that does not add up, or a slab that
 /// [`Slab::validate`] refuses.
 pub fn slab(scene: &Scene, plan: &Plan, wavelength: f64) -> Result<Slab, SimulateError> {
-    let steps = drops::steps_of_kinds(scene, plan)?;
-    checked_slab(scene, plan, &steps, &header_of(scene, plan, String::new()), wavelength)
+    let prepared = Prepared::of_kinds(scene, plan, 1)?;
+    checked_slab(scene, plan, &prepared, &header_of(scene, plan, String::new()), wavelength)
 }
 
 fn checked_slab(
     scene: &Scene,
     plan: &Plan,
-    steps: &[Option<Steps>],
+    prepared: &[Prepared],
     header: &TableHeader,
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
     let slab = if plan.parts.is_empty() {
-        computed_slab(scene, plan, steps[0].as_ref(), wavelength)?
+        computed_slab(scene, plan, &prepared[0], wavelength)?
     } else {
-        of_all_kinds(scene, plan, steps, wavelength)?
+        of_all_kinds(scene, plan, prepared, wavelength)?
     };
     let outside_index =
         wavelength / scene.medium.seen_outside(wavelength).map_err(PlanError::from)?;
@@ -164,14 +165,14 @@ fn checked_slab(
     Ok(slab)
 }
 
-/// The slab of one kind of particles; `steps` are there for many drops by rays.
+/// The slab of one kind of particles.
 fn computed_slab(
     scene: &Scene,
     plan: &Plan,
-    steps: Option<&Steps>,
+    prepared: &Prepared,
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
-    if let Some(steps) = steps {
+    if let Some(steps) = &prepared.steps {
         return drops::slab(scene, plan, steps, wavelength);
     }
     // Everything is computed of the wavelength and the index relative to the surroundings.
@@ -187,10 +188,11 @@ fn computed_slab(
     let size_parameter = TAU * plan.radius / seen;
     let budget = energy(plan, wavelength, index, size_parameter)?;
     let in_table = plan.forward_diffraction && scene.forward_peak != ForwardPeak::Separate;
-    let far_field = far_field(plan, index, size_parameter, in_table);
+    let guides = prepared.guides.as_ref();
+    let far_field = far_field(plan, index, size_parameter, in_table, guides);
     // Kept apart, the peak is not joined to the rays at the edge; cross-sections are those of the whole.
     let apart = plan.forward_diffraction && !in_table && plan.engine == Engine::Meridians;
-    let joined = apart.then(|| self::far_field(plan, index, size_parameter, true));
+    let joined = apart.then(|| self::far_field(plan, index, size_parameter, true, guides));
     let whole = joined.as_ref().unwrap_or(&far_field);
     let sections = CrossSections::new(plan, whole, index, budget.absorbed);
     // What the edge takes beyond the shadow goes with the peak.
@@ -271,13 +273,13 @@ fn computed_slab(
 fn of_all_kinds(
     scene: &Scene,
     plan: &Plan,
-    steps: &[Option<Steps>],
+    prepared: &[Prepared],
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
     let mut sum = population::Sum::default();
-    let kinds = scene.parts().into_iter().zip(&plan.parts).zip(steps);
-    for (((part, plan), steps), share) in kinds.zip(scene.number_shares()) {
-        sum.add(&computed_slab(&part, plan, steps.as_ref(), wavelength)?, share);
+    let kinds = scene.parts().into_iter().zip(&plan.parts).zip(prepared);
+    for (((part, plan), prepared), share) in kinds.zip(scene.number_shares()) {
+        sum.add(&computed_slab(&part, plan, prepared, wavelength)?, share);
     }
     sum.slab(scene.tolerance).ok_or_else(|| {
         let (field, value) = ("particles".into(), "none".into());
@@ -343,34 +345,3 @@ fn worth(
     let tracer = plan.tracer(index, size_parameter);
     Ok(far_field.error_estimate(&tracer, &sphere, treatment.interference, doubts, azimuths))
 }
-
-/// Trace, and make the far field ready for columns and directions, with forward diffraction joined
-/// to order 0 where asked.
-fn far_field<'a>(
-    plan: &'a Plan,
-    index: Complex64,
-    size_parameter: f64,
-    diffraction: bool,
-) -> FarField<'a> {
-    let tracer = plan.tracer(index, size_parameter);
-    if let Some(assignment) =
-        plan.assignment(&tracer, size_parameter).filter(|_| plan.engine == Engine::Meridians)
-    {
-        let settings = FarFieldSettings {
-            size_parameter,
-            orders: &plan.orders,
-            tolerance: plan.tolerance,
-            diffraction,
-        };
-        return FarField::assigned(&tracer, &settings, assignment);
-    }
-    let wavefront = Wavefront::corners(&plan.shape, plan.rings, plan.spokes, FIRST_SPOKE);
-    FarField::patches(
-        &plan.shape,
-        sheets::sheets(&tracer, &wavefront, &plan.orders),
-        size_parameter,
-    )
-}
-
-/// Spokes start off the symmetry plane, so that no azimuth of a table falls on an edge of patches.
-const FIRST_SPOKE: f64 = 0.0123;

@@ -1,6 +1,7 @@
 //! The far field of one wavelength, asked for columns of a table or for single directions.
 
 use super::assignment::{Assignment, Method, Outcome, Thresholds};
+use super::azimuth::guides::Guides;
 use super::azimuth::plane_set::{CHECKED_AZIMUTH, PlaneSet};
 use super::column::Column;
 use super::direction::Direction;
@@ -60,6 +61,16 @@ impl<'a> FarField<'a> {
         settings: &FarFieldSettings,
         assignment: Assignment,
     ) -> Self {
+        Self::guided(tracer, settings, assignment, None)
+    }
+
+    /// The same with guides to the planes of its orders.
+    pub fn guided(
+        tracer: &Tracer<'a>,
+        settings: &FarFieldSettings,
+        assignment: Assignment,
+        guides: Option<&Guides>,
+    ) -> Self {
         let (x, by) = (settings.size_parameter, *assignment.thresholds());
         let silhouette = ForwardDiffraction::new(tracer.shape());
 
@@ -70,7 +81,7 @@ impl<'a> FarField<'a> {
 
         let orders = assignment.orders_of(Method::Planes);
         let of_planes = FarFieldSettings { orders: &orders, ..settings.clone() };
-        let mut planes = PlaneSet::new(tracer, &of_planes, &silhouette, &by);
+        let mut planes = PlaneSet::guided(tracer, &of_planes, &silhouette, &by, guides);
         let assignment = assignment.after(Outcome::Planes(&planes.outcomes()));
 
         for (order, share) in assignment.shares_of_sum() {

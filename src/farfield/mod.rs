@@ -48,6 +48,7 @@ mod settings;
 pub(crate) mod sphere_check;
 mod wave_field;
 
+pub use azimuth::guides::Guides;
 pub use azimuth::plane_set::{Piece, PlaneSet};
 pub use branch::knots::Kind;
 pub use column::Column;

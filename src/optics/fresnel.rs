@@ -33,13 +33,13 @@ pub fn fresnel<T: Scalar>(cos_incidence: T, relative_index: Complex64) -> Fresne
     let c = cos_incidence.complex();
     let m = relative_index;
     let square = 1.0 - (1.0 - c * c) / (m * m);
-    let mut transmitted = square.sqrt();
+    let mut transmitted = square.root();
     if transmitted.im < 0.0 && square.re < 0.0 {
         transmitted = -transmitted;
     }
     let mct = m * transmitted;
     let (perpendicular, parallel) = ((c + mct).inv(), (m * c + transmitted).inv());
-    let root = 2.0 * (c * mct).sqrt();
+    let root = 2.0 * (c * mct).root();
     Fresnel {
         r_perpendicular: (c - mct) * perpendicular,
         r_parallel: (m * c - transmitted) * parallel,
@@ -52,9 +52,9 @@ pub fn fresnel<T: Scalar>(cos_incidence: T, relative_index: Complex64) -> Fresne
 /// outside and what stands for it on the curved surface. `r` holds for reflection outside.
 pub fn curved_from_outside<T: Scalar>(cos: T, index: Complex64, grazing: &Grazing) -> Fresnel {
     let c = cos.complex();
-    let inside = (1.0 - (1.0 - c * c) / (index * index)).sqrt();
+    let inside = (1.0 - (1.0 - c * c) / (index * index)).root();
     let g = grazing;
-    let (mct, root) = (index * inside, 2.0 * g.root * (index * inside).sqrt());
+    let (mct, root) = (index * inside, 2.0 * g.root * (index * inside).root());
     let (perpendicular, parallel) = ((g.lambda + mct).inv(), (index * g.lambda + inside).inv());
     Fresnel {
         r_perpendicular: (g.lambda_in - mct) * perpendicular * g.turn,
@@ -68,7 +68,7 @@ pub fn curved_from_outside<T: Scalar>(cos: T, index: Complex64, grazing: &Grazin
 pub fn curved_from_inside<T: Scalar>(cos: T, index: Complex64, grazing: &Grazing) -> Fresnel {
     let inside = cos.complex();
     let g = grazing;
-    let (mct, root) = (index * inside, 2.0 * g.root * (index * inside).sqrt());
+    let (mct, root) = (index * inside, 2.0 * g.root * (index * inside).root());
     let (perpendicular, parallel) = ((g.lambda + mct).inv(), (index * g.lambda + inside).inv());
     Fresnel {
         r_perpendicular: (mct - g.lambda) * perpendicular,

@@ -42,17 +42,19 @@ impl Grazing {
     /// parameter of the radius of curvature.
     pub fn new<T: Scalar>(cos_squared: T, curvature_size: f64) -> Self {
         let s = cos_squared.complex();
-        let third = (0.5 * curvature_size).cbrt();
-        let ratio = shape_ratio(s);
-        let eta = s * ratio * (third * third);
-        if eta.norm() > FLAT {
+        // η is no less than s (xρ/2)^{2/3}
+        if T::REAL && s.re > 0.0 && s.re.powi(3) * (0.5 * curvature_size).powi(2) > FLAT.powi(3) {
+            return Self::flat(s);
+        }
+        let eta = eta_of(s, curvature_size);
+        if eta.norm_sqr() > FLAT * FLAT {
             return Self::flat(s);
         }
         let share = (-(eta / FADE) * (eta / FADE)).exp();
-        if eta.norm() > SERIES && eta.re > 0.0 {
+        if eta.norm_sqr() > SERIES * SERIES && eta.re > 0.0 {
             return Self::series(s, eta).faded(s, share);
         }
-        match Self::airy(eta, ratio, third) {
+        match Self::airy(eta, s, curvature_size) {
             Some((found, wave)) => found.with_phase(wave).faded(s, share),
             None => Self::flat(s),
         }
@@ -64,15 +66,13 @@ impl Grazing {
     /// [`Grazing::path_outside`] added.
     pub fn whole(cos_squared: f64, curvature_size: f64) -> Self {
         let s = Complex64::from(cos_squared);
-        let third = (0.5 * curvature_size).cbrt();
-        let ratio = shape_ratio(s);
-        let eta = s * ratio * (third * third);
+        let eta = eta_of(s, curvature_size);
         if eta.re > SERIES {
-            let wave = Complex64::cis(-(2.0 / 3.0) * eta.re.powf(1.5));
-            let found = if eta.re > FLAT { Self::flat(s) } else { Self::series(s, eta) };
+            let wave = Complex64::cis(-(2.0 / 3.0) * eta.re * eta.re.sqrt());
+            let found = Self::series(s, eta);
             return Self { root: found.root * wave, ..found };
         }
-        Self::airy(eta, ratio, third).map_or_else(|| Self::flat(s), |(found, _)| found)
+        Self::airy(eta, s, curvature_size).map_or_else(|| Self::flat(s), |(found, _)| found)
     }
 
     /// External reflection, perpendicular and parallel, as a partial wave of an impact has it: with
@@ -83,20 +83,18 @@ impl Grazing {
     /// curvature, and the index inside.
     pub fn reflection(cos_squared: f64, curvature_size: f64, index: Complex64) -> [Complex64; 2] {
         let s = Complex64::from(cos_squared);
-        let third = (0.5 * curvature_size).cbrt();
-        let ratio = shape_ratio(s);
-        let eta = s * ratio * (third * third);
+        let eta = eta_of(s, curvature_size);
         let (found, turn) = if eta.re > SERIES {
             let found = if eta.re > FLAT { Self::flat(s) } else { Self::series(s, eta) };
-            (found, found.turn * Complex64::cis(-(4.0 / 3.0) * eta.re.powf(1.5)))
+            (found, found.turn * Complex64::cis(-(4.0 / 3.0) * eta.re * eta.re.sqrt()))
         } else {
-            Self::airy(eta, ratio, third).map_or_else(
+            Self::airy(eta, s, curvature_size).map_or_else(
                 || (Self::flat(s), Complex64::from(1.0)),
                 |(found, _)| (found, found.turn),
             )
         };
         let square = 1.0 - (1.0 - s) / (index * index);
-        let mut inside = square.sqrt();
+        let mut inside = square.root();
         if inside.im < 0.0 && square.re < 0.0 {
             inside = -inside;
         }
@@ -117,8 +115,8 @@ impl Grazing {
 
     /// Airy functions of `η`; `root` and `turn` without the phase of the wave, `i ⅔ η^{3/2}`, which
     /// stands beside them.
-    fn airy(eta: Complex64, ratio: Complex64, third: f64) -> Option<(Self, Complex64)> {
-        let scale = (ratio.inv()).sqrt() / third;
+    fn airy(eta: Complex64, s: Complex64, curvature_size: f64) -> Option<(Self, Complex64)> {
+        let scale = shape_ratio(s).inv().root() / (0.5 * curvature_size).cbrt();
         let (out, inward) = if eta.im == 0.0 {
             let out = real_airy_pair(eta.re)?;
             (out, (out.0.conj(), out.1.conj()))
@@ -127,7 +125,7 @@ impl Grazing {
         };
         // √cos θ η^{-1/4} is smooth through grazing incidence
         let asymptote =
-            |sign: f64| scale.sqrt() * Complex64::from_polar(0.5 / PI.sqrt(), -sign * PI / 12.0);
+            |sign: f64| scale.root() * Complex64::from_polar(0.5 / PI.sqrt(), -sign * PI / 12.0);
         let (root, root_in) = (asymptote(-1.0) / out.0, asymptote(1.0) / inward.0);
         let found = Self {
             lambda: -Complex64::cis(FRAC_PI_6) * out.1 / out.0 * scale,
@@ -135,7 +133,7 @@ impl Grazing {
             lambda_in: -Complex64::cis(-FRAC_PI_6) * inward.1 / inward.0 * scale,
             turn: root / root_in,
         };
-        Some((found, Complex64::i() * (2.0 / 3.0) * eta * eta.sqrt()))
+        Some((found, Complex64::i() * (2.0 / 3.0) * eta * eta.root()))
     }
 
     /// The phase of the wave put back into `root` and `turn`.
@@ -157,18 +155,18 @@ impl Grazing {
 
     /// A flat interface.
     pub fn flat(cos_squared: Complex64) -> Self {
-        let mut cos = cos_squared.sqrt();
+        let mut cos = cos_squared.root();
         if cos.im < 0.0 && cos_squared.re < 0.0 {
             cos = -cos;
         }
         let one = Complex64::new(1.0, 0.0);
-        Self { lambda: cos, root: cos.sqrt(), lambda_in: cos, turn: one }
+        Self { lambda: cos, root: cos.root(), lambda_in: cos, turn: one }
     }
 
     /// Asymptotic series in `1/(i ⅔ η^{3/2})` (Abramowitz & Stegun 10.4.59–62).
     fn series(s: Complex64, eta: Complex64) -> Self {
-        let big = Complex64::i() * (2.0 / 3.0) * eta * eta.sqrt();
-        let cos = s.sqrt();
+        let big = Complex64::i() * (2.0 / 3.0) * eta * eta.root();
+        let cos = s.root();
         let sums = |z: Complex64| {
             // Ai(w) with ⅔ w^{3/2} = z: Σ (-1)^k c_k z^{-k}, Ai': Σ (-1)^k d_k z^{-k}
             const C: [f64; 6] = [
@@ -199,36 +197,50 @@ impl Grazing {
         let (a_in, b_in) = sums(big);
         Self {
             lambda: cos * b / a,
-            root: cos.sqrt() / a,
+            root: cos.root() / a,
             lambda_in: cos * b_in / a_in,
             turn: a_in / a,
         }
     }
 }
 
+/// Below this `G/s` is its series.
+const SERIES_OF_RATIO: f64 = 1e-3;
+
 /// `G(s)/s` with `G = [3 (sin γ - γ cos γ)]^{2/3}` and `s = sin² γ`; analytic through `s = 0`.
 fn shape_ratio(s: Complex64) -> Complex64 {
-    if s.norm() < 1e-3 {
+    if s.norm() < SERIES_OF_RATIO {
         return 1.0 + s * (4.0 / 15.0) + s * s * 0.1428;
     }
     if s.im == 0.0 {
         return real_shape_ratio(s.re).into();
     }
-    let gamma = s.sqrt().asin();
+    let gamma = s.root().asin();
     let cubic = 3.0 * (gamma.sin() - gamma * gamma.cos()) / (gamma * gamma * gamma);
     cubic.powf(2.0 / 3.0) * gamma * gamma / s
 }
 
 /// The same for real `s`; below 0 the angle is imaginary and the ratio real all the same.
 fn real_shape_ratio(s: f64) -> f64 {
+    (3.0 * area(s)).powf(2.0 / 3.0) / s.abs()
+}
+
+/// `|sin γ - γ cos γ|`
+fn area(s: f64) -> f64 {
     let size = s.abs().sqrt();
-    // |sin γ - γ cos γ|
-    let area = if s > 0.0 {
+    if s > 0.0 {
         size - size.min(1.0).asin() * (1.0 - size * size).max(0.0).sqrt()
     } else {
         size.asinh() * (1.0 + size * size).sqrt() - size
-    };
-    (3.0 * area).cbrt().powi(2) / (size * size)
+    }
+}
+
+/// `η` for the squared cosine outside and the size parameter of the radius of curvature.
+fn eta_of(s: Complex64, curvature_size: f64) -> Complex64 {
+    if s.im == 0.0 && s.re.abs() >= SERIES_OF_RATIO {
+        return (1.5 * area(s.re) * curvature_size).powf(2.0 / 3.0).copysign(s.re).into();
+    }
+    s * shape_ratio(s) * (0.5 * curvature_size).powf(2.0 / 3.0)
 }
 
 /// `Ai(η e^{±iπ/3})` and its derivative.

@@ -2,7 +2,8 @@
 
 use super::cross_sections::CrossSections;
 use super::error::SimulateError;
-use super::{Treatment, far_field, worth};
+use super::prepared::far_field;
+use super::{Treatment, worth};
 use crate::farfield::{ErrorEstimate, FarField};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::InvalidTable;
@@ -88,6 +89,6 @@ fn scatter_far_field<'a>(
     size_parameter: f64,
     directions: &[(f64, f64)],
 ) -> (Vec<AmplitudeMatrix>, FarField<'a>) {
-    let far_field = far_field(plan, index, size_parameter, plan.forward_diffraction);
+    let far_field = far_field(plan, index, size_parameter, plan.forward_diffraction, None);
     (far_field.scatter(directions, plan.forward_diffraction), far_field)
 }

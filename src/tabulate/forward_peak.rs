@@ -12,6 +12,7 @@ use crate::farfield::forward::wave::ForwardWave;
 use crate::math::half_turn::shares;
 use crate::optics::AmplitudeMatrix;
 use crate::series::table::{coarse_cells, samples};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// θ cells of a table about the forward direction, and the angles that stand for them.
@@ -73,15 +74,15 @@ impl PeakRows {
         let reach =
             near_axis(peak.size_parameter) * peak.size_parameter * peak.shadow.deformation();
         let last = if reach < 1e-9 { 0 } else { 32 + (1.5 * reach).ceil() as usize };
-        let azimuths = (0..=last).map(|j| PI * j as f64 / last.max(1) as f64);
+        let azimuth = |j: usize| PI * j as f64 / last.max(1) as f64;
         let inside = near_axis(peak.size_parameter);
         // the last cell may reach to where the wave is in those of planes
         let wave = |theta: f64, phi: f64| match Direction::new(theta, phi) {
             direction if theta < inside => peak.peak(&direction),
             direction => peak.beside_planes(&direction),
         };
-        let row = |phi| cells.theta.iter().map(|&theta| wave(theta, phi)).collect();
-        Self { rows: azimuths.map(row).collect() }
+        let row = |j| cells.theta.iter().map(|&theta| wave(theta, azimuth(j))).collect();
+        Self { rows: (0..=last).into_par_iter().map(row).collect() }
     }
 
     /// All angles at an azimuth in [0, π].

@@ -27,8 +27,8 @@ pub fn energy_by_fate(tracer: &Tracer, wavefront: &Wavefront) -> Fates {
         .into_par_iter()
         .map(|i| {
             let mut sum = Fates { left_by_order: vec![0.0; orders], ..Fates::default() };
-            for j in 0..wavefront.spokes.len() {
-                add_ray(tracer, wavefront, i, j, &mut sum);
+            for (j, images) in wavefront.half_turn() {
+                add_ray(tracer, wavefront, (i, j), images, &mut sum);
             }
             sum
         })
@@ -51,9 +51,15 @@ pub fn energy_by_fate(tracer: &Tracer, wavefront: &Wavefront) -> Fates {
     total
 }
 
-fn add_ray(tracer: &Tracer, wavefront: &Wavefront, i: usize, j: usize, sum: &mut Fates) {
+fn add_ray(
+    tracer: &Tracer,
+    wavefront: &Wavefront,
+    (i, j): (usize, usize),
+    images: f64,
+    sum: &mut Fates,
+) {
     let (u, v) = wavefront.place(i, j);
-    let weight = wavefront.share(i, j) / wavefront.area();
+    let weight = images * wavefront.share(i, j) / wavefront.area();
     let left = &mut sum.left_by_order;
     let momentum = &mut sum.forward_momentum;
     let remainder = tracer.trace_to_the_end(u, v, |exit| {

@@ -52,6 +52,19 @@ impl<T: Scalar> Exit<T> {
         }
     }
 
+    /// The exit of a ray launched next to this one, for small changes of `(u, v)`: direction, place and path to first
+    /// order (`dW = -x·ds`, Legendre), all else as here.
+    pub(crate) fn moved(&self, [du, dv]: [T; 2]) -> Self {
+        let turn = self.ds[0] * du + self.ds[1] * dv;
+        let along = self.reference.dot(turn);
+        Self {
+            direction: self.direction + turn,
+            reference: self.reference + self.dx[0] * du + self.dx[1] * dv - self.direction * along,
+            path: self.path - along,
+            ..*self
+        }
+    }
+
     /// Power for unpolarised light, as a fraction of what the ray began with.
     pub(super) fn power(&self) -> f64 {
         power(&self.field)

@@ -218,7 +218,8 @@ impl<'a> Tracer<'a> {
             return 0.0;
         }
         let before = ray.power();
-        let factor = (-length.complex() * self.decrement).exp();
+        let real = || (-length.re() * self.decrement).exp().into();
+        let factor = if T::REAL { real() } else { (-length.complex() * self.decrement).exp() };
         ray.field = ray.field.map(|e| e * factor);
         before - ray.power()
     }

@@ -41,6 +41,16 @@ impl Wavefront {
         (rho * cos, rho * sin)
     }
 
+    /// Spokes of which the others are mirror images, and for how many each stands; all where they are not
+    /// even about the plane of the body's axis.
+    pub(super) fn half_turn(&self) -> impl Iterator<Item = (usize, f64)> {
+        let count = self.spokes.len();
+        let even = count.is_multiple_of(2) && self.spokes.first() == Some(&0.0);
+        let last = if even { count / 2 } else { count - 1 };
+        let alone = move |j: usize| !even || j == 0 || j == last;
+        (0..=last).map(move |j| (j, if alone(j) { 1.0 } else { 2.0 }))
+    }
+
     /// Area of the silhouette that the ray on ring `i` and spoke `j` stands for.
     pub fn share(&self, i: usize, j: usize) -> f64 {
         let half = 0.25 * std::f64::consts::PI / self.rings.len() as f64;
@@ -122,6 +132,20 @@ mod tests {
         let moment: f64 =
             (0..400).map(|i| 8.0 * wavefront.share(i, 0) * wavefront.rings[i].sin().powi(2)).sum();
         assert!((moment / PI - 0.5).abs() < 1e-5, "{moment}");
+    }
+
+    /// Mirror images count once, and all spokes where there are none.
+    #[test]
+    fn half_a_turn_stands_for_all_spokes() {
+        for spokes in [4, 5, 100] {
+            let wavefront = Wavefront::midpoints(&Shape::sphere(), 3, spokes);
+            let sum: f64 = wavefront.half_turn().map(|(_, images)| images).sum();
+            assert_eq!(sum, spokes as f64);
+            let mean: f64 = wavefront.half_turn().map(|(j, n)| n * wavefront.spokes[j].cos()).sum();
+            assert!(mean.abs() < 1e-12, "{spokes}: {mean}");
+        }
+        let turned = Wavefront::corners(&Shape::sphere(), 3, 8, 0.1);
+        assert!(turned.half_turn().eq((0..8).map(|j| (j, 1.0))));
     }
 
     /// Triangles cover the polygon of the last ring once, all in one sense.

@@ -23,6 +23,7 @@ mod series_debye_reference;
 mod series_layered;
 mod series_means;
 mod series_mie_reference;
+mod shared_rays;
 mod stress;
 mod tmatrix;
 mod trace_physics;

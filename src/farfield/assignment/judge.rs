@@ -5,7 +5,7 @@ use super::method::{Method, Reason};
 use super::near_grazing_taper::taper;
 use super::rim::Rim;
 use super::thresholds::Thresholds;
-use crate::trace::Tracer;
+use crate::shape::Shape;
 use std::f64::consts::PI;
 
 /// The numbers of one particle and wavelength.
@@ -161,8 +161,8 @@ fn assigned(order: u32, method: Method, reasons: Vec<Reason>, expected_error: f6
 }
 
 /// How far rays of an order stray from those of a sphere: order times deformation of the outline.
-pub(crate) fn caustic_disorder(tracer: &Tracer, order: u32) -> f64 {
-    let silhouette = tracer.shape().silhouette();
+pub(crate) fn caustic_disorder(shape: &Shape, order: u32) -> f64 {
+    let silhouette = shape.silhouette();
     let radii: Vec<f64> = (0..16).map(|k| silhouette.radius(k as f64 * PI / 8.0)).collect();
     let (low, high) = radii.iter().fold((f64::MAX, 0.0f64), |(l, h), r| (l.min(*r), h.max(*r)));
     f64::from(order) * (high - low)

@@ -77,7 +77,7 @@ impl Assignment {
             rim: Rim::of(tracer),
             mirror: tracer.shape().mirror_symmetry(),
             deformed,
-            disorder: caustic_disorder(tracer, 1),
+            disorder: caustic_disorder(tracer.shape(), 1),
         };
         let entries = orders.iter().map(|&order| judge.first(order)).collect();
         Self { entries, judge }

@@ -133,6 +133,10 @@ pub struct Thresholds {
     /// Caustic disorder over which it is done: below, planes were never found wrong.
     pub cross_checked_disorder: f64,
 
+    /// Wavelengths of a table from which on its planes are found by guides over the index: a guide takes the scans of four
+    /// or five of them.
+    pub fewest_guided: usize,
+
     /// Size parameter of the largest sphere that a method is measured on; no error of rays grows with the
     /// size.
     pub largest_checked_sphere: f64,
@@ -229,6 +233,7 @@ impl Thresholds {
         near_critical_order: 3,
         cross_checked_orders: [1, 3],
         cross_checked_disorder: 0.06,
+        fewest_guided: 8,
         largest_checked_sphere: 20_000.0,
         largest_power_sum: 200.0,
         most_power_lost: 0.25,

@@ -6,10 +6,15 @@ use crate::farfield::deflection::landmark::Landmark;
 use crate::farfield::deflection::scan::Edge;
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_grazing::NearGrazing;
+use crate::farfield::impact_integral::rays::Rays;
 use std::f64::consts::PI;
 
-/// The waves about the axis of rays that cross it, in a rotationally symmetric scene.
-pub(crate) fn axis_waves(curve: &DeflectionCurve, layout: &CutLayout) -> Vec<Glory> {
+/// The waves about the axis of rays that cross it, in a rotationally symmetric scene; `rim` are those near the rim.
+pub(crate) fn axis_waves(
+    curve: &DeflectionCurve,
+    layout: &CutLayout,
+    rim: Option<&Rays>,
+) -> Vec<Glory> {
     let (reach, x) = (layout.axis_gap, layout.size_parameter);
     let launch = |landmark: &Landmark| curve.launch(landmark);
     let crossing = |around: &[Landmark]| {
@@ -22,7 +27,8 @@ pub(crate) fn axis_waves(curve: &DeflectionCurve, layout: &CutLayout) -> Vec<Glo
         Glory::of_crossing(curve, share, [&before, &after], limits, number, reach, x)
     };
     let mut waves: Vec<Glory> = curve.landmarks.windows(3).filter_map(crossing).collect();
-    let rim = layout.rim.as_ref().and_then(|rim| NearGrazing::new(curve, rim, x));
+    let near_rim = layout.rim.as_ref().zip(rim);
+    let rim = near_rim.and_then(|(rim, rays)| NearGrazing::new(curve, rim, rays, x));
     waves.extend(rim.iter().flat_map(|rim| rim.about_axes(reach)));
     waves
 }

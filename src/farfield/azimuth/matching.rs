@@ -5,9 +5,11 @@ use super::axis_waves::axis_waves;
 use super::cut_layout::{CutLayout, FoldLayout};
 use crate::farfield::branch::knots::{Kind, Knot, Segment};
 use crate::farfield::deflection::curve::DeflectionCurve;
+use crate::farfield::deflection::guide::OrderGuide;
 use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane, axial_ray};
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_critical;
+use crate::farfield::impact_integral::rays::Rays;
 use crate::trace::Tracer;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -37,7 +39,8 @@ pub(crate) struct Traced {
     pub about_axis: Vec<Glory>,
 }
 
-/// Trace the planes of an order and cut them into corresponding segments.
+/// Trace the planes of an order and cut them into corresponding segments; a `guide` knows where rays of these planes
+/// start and leave.
 pub(crate) fn trace(
     tracer: &Tracer,
     order: u32,
@@ -45,26 +48,36 @@ pub(crate) fn trace(
     places: &[f64],
     mut layout: CutLayout,
     caustic_disorder: f64,
+    guide: Option<&OrderGuide>,
 ) -> Option<Traced> {
     let silhouette = tracer.shape().silhouette().tabulated();
-    let curve = |phi: f64| {
-        DeflectionCurve::new(
-            ScatteringPlane::new(tracer, order, phi, centre),
-            &silhouette,
-            layout.scanning(),
-        )
+    let plane = |phi: f64| ScatteringPlane::new(tracer, order, phi, centre);
+    let guides = guide.map_or_else(Vec::new, |guide| guide.at(tracer.index().re));
+    let curve = |j: usize| {
+        DeflectionCurve::guided(plane(places[j]), &silhouette, layout.scanning(), guides.get(j))
     };
     // A few planes far apart tell soon whether all can correspond.
-    let probes = [0.0, 0.5, 1.0, 0.25, 0.75].map(|f| (f * (places.len() - 1) as f64) as usize);
-    let signature = curve(places[probes[0]])?.signature();
-    let differs = |k: &&usize| curve(places[**k]).is_none_or(|a| a.signature() != signature);
+    let mut probes: Vec<usize> = [0.0, 0.25, 0.5, 0.75, 1.0]
+        .map(|share| (share * (places.len() - 1) as f64) as usize)
+        .to_vec();
+    probes.dedup();
+    let mut curves: Vec<Option<DeflectionCurve>> = places.iter().map(|_| None).collect();
+    let probed: Vec<_> = probes.par_iter().map(|&j| curve(j)).collect();
+    for (&j, curve) in probes.iter().zip(probed) {
+        curves[j] = curve;
+    }
+    let signature = curves[0].as_ref()?.signature();
+    let alike = |curve: &DeflectionCurve| curve.signature() == signature;
+    let differs = |j: &&usize| !curves[**j].as_ref().is_some_and(alike);
     if probes.iter().filter(differs).count() > 1 {
         return None;
     }
-    let curves: Vec<Option<DeflectionCurve>> = places
-        .par_iter()
-        .map(|&phi| curve(phi).filter(|curve| curve.signature() == signature))
-        .collect();
+    curves.par_iter_mut().enumerate().for_each(|(j, known)| {
+        if !probes.contains(&j) {
+            *known = curve(j);
+        }
+    });
+    let curves: Vec<_> = curves.into_iter().map(|curve| curve.filter(alike)).collect();
     let found: Vec<&DeflectionCurve> = curves.iter().flatten().collect();
     if places.len() - found.len() > most_missing(places.len()) {
         return None;
@@ -72,21 +85,27 @@ pub(crate) fn trace(
     // others decide on a fold's segment, too, so that few azimuths are treated as many are
     let deciding = layout.near_critical && places.len() < DECIDING;
     let others: Vec<Option<DeflectionCurve>> = (0..if deciding { DECIDING } else { 0 })
-        .map(|j| curve(PI * j as f64 / (DECIDING - 1) as f64))
-        .map(|curve| curve.filter(|curve| curve.signature() == signature))
+        .map(|j| plane(PI * j as f64 / (DECIDING - 1) as f64))
+        .map(|plane| DeflectionCurve::new(plane, &silhouette, layout.scanning()))
+        .map(|curve| curve.filter(alike))
         .collect();
     let all: Vec<&DeflectionCurve> = found.iter().copied().chain(others.iter().flatten()).collect();
     layout.folds = fold_reaches(&all, layout.axis_gap, layout.size_parameter);
+    let mut near_rim = Vec::new();
     if let Some(rim) = &mut layout.rim {
-        let index = tracer.index().re;
-        rim.spread_knots(&found, layout.axis_gap, index, caustic_disorder, layout.size_parameter)?;
+        let (index, x) = (tracer.index().re, layout.size_parameter);
+        near_rim = rim.spread_knots(&found, layout.axis_gap, index, caustic_disorder, x)?;
     }
+    let mut near_rim = near_rim.into_iter();
+    let near_rim: Vec<Option<Rays>> =
+        curves.iter().map(|curve| curve.as_ref().and_then(|_| near_rim.next())).collect();
     let shrinks = if layout.folds.is_empty() { 1 } else { SHRINKS };
     for _ in 0..shrinks {
-        if let Some((planes, layout)) = cut(&curves, &others, &layout) {
+        if let Some((planes, layout)) = cut(&curves, &near_rim, &others, &layout) {
             let symmetric = tracer.shape().rotational_symmetry();
+            let rim = near_rim.iter().flatten().next();
             let about_axis =
-                if symmetric { axis_waves(found.first()?, &layout) } else { Vec::new() };
+                if symmetric { axis_waves(found.first()?, &layout, rim) } else { Vec::new() };
             return Some(Traced { planes, layout, about_axis });
         }
         layout.folds.iter_mut().for_each(|fold| {
@@ -127,9 +146,10 @@ fn fold_reaches(
         .collect()
 }
 
-/// All segments of all planes, with common numbers of knots.
+/// All segments of all planes, with common numbers of knots; `near_rim` are each plane's rays near the rim.
 fn cut(
     curves: &[Option<DeflectionCurve>],
+    near_rim: &[Option<Rays>],
     others: &[Option<DeflectionCurve>],
     layout: &CutLayout,
 ) -> Option<(Vec<Vec<Segment>>, CutLayout)> {
@@ -153,11 +173,10 @@ fn cut(
     let plain_count = ends.iter().flatten().next()?.len();
     let pieces = |s: usize| ends.iter().flatten().map(|e| layout.pieces(&e[s])).max().unwrap_or(0);
     layout.knots = (0..plain_count).map(pieces).collect();
-    let segments =
-        |(curve, ends): (&Option<DeflectionCurve>, &Option<Ends>)| -> Option<Vec<Segment>> {
-            curve.as_ref()?.segments(&layout, ends.as_ref()?)
-        };
-    let cut: Vec<Option<Vec<Segment>>> = curves.par_iter().zip(&ends).map(segments).collect();
+    let segments = |j: usize| -> Option<Vec<Segment>> {
+        curves[j].as_ref()?.segments(&layout, ends[j].as_ref()?, near_rim[j].as_ref())
+    };
+    let cut: Vec<Option<Vec<Segment>>> = (0..curves.len()).into_par_iter().map(segments).collect();
     let template: Vec<Kind> = cut.iter().flatten().next()?.iter().map(|s| s.kind).collect();
     // a fold's integral on one plane may be a pair on another, whose impacts do not serve
     let alike = |(a, b): (&Segment, &Kind)| {
@@ -187,7 +206,11 @@ pub(crate) fn another(
         &silhouette,
         layout.scanning(),
     )?;
-    curve.segments(layout, &curve.ends(layout)?)
+    let near_rim = match &layout.rim {
+        Some(rim) => Some(rim.rays(&curve)?),
+        None => None,
+    };
+    curve.segments(layout, &curve.ends(layout)?, near_rim.as_ref())
 }
 
 /// Where to cut last segments whose last rays differ from plane to plane, as they do where some

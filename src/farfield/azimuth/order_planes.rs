@@ -4,10 +4,12 @@ use super::azimuthal_smoothness::azimuthal_smoothness;
 use super::blend::{STENCIL, blend};
 use super::cut_layout::CutLayout;
 use super::matching::{Traced, another, trace};
+use super::places::{Azimuths, axis_gaps, scanned_rays, steps};
 use crate::farfield::assignment::near_grazing_taper::taper;
 use crate::farfield::assignment::{Rim, Spacing, Thresholds, caustic_disorder};
 use crate::farfield::branch::knots::{CHANNELS, Knot, Segment};
 use crate::farfield::branch::samples::Side;
+use crate::farfield::deflection::guide::OrderGuide;
 use crate::farfield::deflection::scattering_plane::axial_ray;
 use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
@@ -20,10 +22,6 @@ use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Azimuth steps per half-turn, before refinement by the tolerance: for orders of plain rays and
-/// pairs, and for those with rim waves, whose phases change faster.
-const HALF_TURN_STEPS: usize = 44;
-const HALF_TURN_STEPS_RIM: usize = 60;
 /// Planes too rough over azimuth for interpolation are so many times more, then so many; if that does not help, they
 /// say how planes are cut, and each that is asked for is traced by itself.
 const FINER: usize = 2;
@@ -47,17 +45,6 @@ pub(crate) struct OrderPlanes {
     pub share: f64,
 }
 
-/// Where the planes stand.
-#[derive(Clone, Debug)]
-pub(crate) enum Azimuths {
-    /// One serves all: nothing depends on azimuth.
-    Any,
-    /// Even steps over a half-turn, both ends in.
-    Even,
-    /// There as well, to be cut alike; any other is traced when it is asked for.
-    Single,
-}
-
 impl OrderPlanes {
     /// All that an order's wave is made of: planes with an integral near the rim, planes without, or shares of
     /// both where a body is on its way from nearly round. None where planes do not correspond.
@@ -67,8 +54,9 @@ impl OrderPlanes {
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
+        guide: Option<&OrderGuide>,
     ) -> Vec<Self> {
-        let new = |near_rim| Self::new(tracer, order, settings, edge, by, near_rim);
+        let new = |near_rim| Self::new(tracer, order, settings, edge, by, (near_rim, guide));
         let deformation = tracer.shape().deformation();
         let share = by.near_grazing_share(tracer.index().re, order, Rim::of(tracer), deformation);
         let Some(mut with) = new(share > 0.0) else { return Vec::new() };
@@ -87,9 +75,12 @@ impl OrderPlanes {
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
-        near_rim: bool,
+        (near_rim, guide): (bool, Option<&OrderGuide>),
     ) -> Option<Self> {
-        let at = |finer: usize| Self::at(tracer, order, settings, edge, by, (near_rim, finer));
+        let at = |finer: usize| {
+            let guide = guide.filter(|_| finer == 1);
+            Self::at(tracer, order, settings, edge, by, (near_rim, finer, guide))
+        };
         let found = at(1)?;
         let rough = |found: &Self| {
             azimuthal_smoothness(&found.planes, settings.size_parameter) > by.roughest
@@ -108,20 +99,19 @@ impl OrderPlanes {
         }
     }
 
-    /// With an integral near the rim where it serves, and `finer` times as many planes as usual.
+    /// With an integral near the rim where it serves, `finer` times as many planes as usual, and what guides them.
     fn at(
         tracer: &Tracer,
         order: u32,
         settings: &FarFieldSettings,
         edge: Option<&Penumbra>,
         by: &Thresholds,
-        (near_rim, finer): (bool, usize),
+        (near_rim, finer, guide): (bool, usize, Option<&OrderGuide>),
     ) -> Option<Self> {
-        let azimuths = azimuths(tracer);
+        let azimuths = Azimuths::of(tracer.shape());
         let centre = axial_ray(tracer, order);
         let high = by.is_high(order);
-        let steps = finer * if high { HALF_TURN_STEPS_RIM } else { HALF_TURN_STEPS };
-        let places = azimuths.places(settings, steps);
+        let places = azimuths.places(settings.tolerance, finer * steps(by, order));
         // knots per radian at 1 %: the strongest orders have more
         let density = if order == 0 && edge.is_some() {
             48.0
@@ -131,7 +121,7 @@ impl OrderPlanes {
             20.0
         };
         let density = density * (0.01 / settings.tolerance).powf(0.25).clamp(0.6, 4.0);
-        let caustic_disorder = caustic_disorder(tracer, order);
+        let caustic_disorder = caustic_disorder(tracer.shape(), order);
         let x = settings.size_parameter;
         let near_critical = by.near_critical_serves(order, tracer.shape().rotational_symmetry());
         let gaps = axis_gaps(by.narrowest_axis_gap, caustic_disorder);
@@ -144,7 +134,7 @@ impl OrderPlanes {
         let tries = with_rim.chain(without);
         tries.into_iter().find_map(|(rim, axis_gap)| {
             let layout = CutLayout {
-                scan: 64 + 16 * order as usize,
+                scan: scanned_rays(order),
                 axis_gap,
                 folds: Vec::new(),
                 cut: None,
@@ -156,7 +146,8 @@ impl OrderPlanes {
                 rim,
                 edge: edge.map(Penumbra::taper),
             };
-            let traced = trace(tracer, order, centre, &places, layout, caustic_disorder)?;
+            let disorder = caustic_disorder;
+            let traced = trace(tracer, order, centre, &places, layout, disorder, guide)?;
             let Traced { mut planes, layout, about_axis } = traced;
             let beside_penumbra = planes.first().map_or(0, Vec::len);
             for (segments, &azimuth) in planes.iter_mut().zip(&places) {
@@ -272,15 +263,6 @@ impl OrderPlanes {
     }
 }
 
-/// Gaps tried about crossings of the axis, radians: the tangle of rays there grows with the order
-/// and with the deformation of the outline.
-fn axis_gaps(narrowest: f64, caustic_disorder: f64) -> Vec<f64> {
-    const WIDEST: f64 = 0.35;
-    let mut gaps = [3.0, 6.0].map(|f| (f * caustic_disorder).clamp(narrowest, WIDEST)).to_vec();
-    gaps.dedup();
-    gaps
-}
-
 /// Lowest and highest angle of each segment over all planes, with room for interpolation.
 fn spans(planes: &[Vec<Segment>]) -> Vec<(f64, f64)> {
     const ROOM: f64 = 1e-3;
@@ -312,21 +294,4 @@ fn rim_layout(
     };
     let one_plane_to = (rim != Rim::Uneven).then_some(by.largest_checked_sphere);
     Some(NearGrazingLayout::new(marks, one_plane_to, order, like))
-}
-
-fn azimuths(tracer: &Tracer) -> Azimuths {
-    if tracer.shape().rotational_symmetry() { Azimuths::Any } else { Azimuths::Even }
-}
-
-impl Azimuths {
-    fn places(&self, settings: &FarFieldSettings, half_turn_steps: usize) -> Vec<f64> {
-        match self {
-            Azimuths::Any => vec![0.0],
-            Azimuths::Even | Azimuths::Single => {
-                let finer = (0.01 / settings.tolerance).powf(0.125).clamp(0.8, 2.0);
-                let steps = (half_turn_steps as f64 * finer).ceil() as usize;
-                (0..=steps).map(|j| j as f64 * PI / steps as f64).collect()
-            }
-        }
-    }
 }

@@ -6,6 +6,7 @@
 //! cut, and that of each column is traced. None of it depends on which are asked for. Orders whose planes do not correspond (more than two rays
 //! coalesce somewhere: cusps, umbilics) are told by `PlaneSet::outcomes`.
 
+use super::guides::Guides;
 use super::matching::another;
 use super::order_planes::OrderPlanes;
 use crate::farfield::assignment::{PlanesOutcome, Thresholds};
@@ -56,6 +57,17 @@ impl<'a> PlaneSet<'a> {
         shadow: &ForwardDiffraction,
         by: &Thresholds,
     ) -> Self {
+        Self::guided(tracer, settings, shadow, by, None)
+    }
+
+    /// The same with guides to the planes of its orders.
+    pub(crate) fn guided(
+        tracer: &Tracer<'a>,
+        settings: &FarFieldSettings,
+        shadow: &ForwardDiffraction,
+        by: &Thresholds,
+        guides: Option<&Guides>,
+    ) -> Self {
         let joined = settings.diffraction && settings.orders.contains(&0);
         let edge = joined.then(|| Penumbra::new(tracer, shadow, settings.size_parameter)).flatten();
         let traced_orders: Vec<(u32, Vec<OrderPlanes>)> = settings
@@ -63,7 +75,8 @@ impl<'a> PlaneSet<'a> {
             .par_iter()
             .map(|&order| {
                 let edge = edge.as_ref().filter(|_| order == 0);
-                (order, OrderPlanes::of_order(tracer, order, settings, edge, by))
+                let guide = guides.and_then(|guides| guides.of(order));
+                (order, OrderPlanes::of_order(tracer, order, settings, edge, by, guide))
             })
             .collect();
         let unmatched: Vec<u32> =

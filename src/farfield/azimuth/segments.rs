@@ -1,6 +1,7 @@
 //! The segments of a curve: data at their knots.
 
 use super::cut_layout::CutLayout;
+use super::sparse_rays::{KnotRay, rays_at_knots};
 use crate::farfield::branch::knots::{Kind, Knot, PairKnot, Segment, SingleKnot, parabola_slopes};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
@@ -11,6 +12,7 @@ use crate::farfield::deflection::scan::Edge;
 use crate::farfield::deflection::scattering_plane::Node;
 use crate::farfield::impact_integral::near_critical::{self, Stretch};
 use crate::farfield::impact_integral::near_grazing::NearGrazing;
+use crate::farfield::impact_integral::rays::Rays;
 use crate::math::chebyshev::Chebyshev;
 use num_complex::Complex64;
 
@@ -57,8 +59,14 @@ impl DeflectionCurve<'_> {
         })
     }
 
-    /// Cut into segments between the ends found before. `None` where a ray cannot be found.
-    pub fn segments(&self, layout: &CutLayout, ends: &[[Node; 2]]) -> Option<Vec<Segment>> {
+    /// Cut into segments between the ends found before, `rim` being its rays near the rim where an integral stands
+    /// for them. `None` where a ray cannot be found.
+    pub(crate) fn segments(
+        &self,
+        layout: &CutLayout,
+        ends: &[[Node; 2]],
+        rim: Option<&Rays>,
+    ) -> Option<Vec<Segment>> {
         let mut segments = Vec::new();
         let mut folds = layout.folds.iter();
         let cut = layout.cut.map(Landmark::Cut);
@@ -79,8 +87,9 @@ impl DeflectionCurve<'_> {
             }
             segments.push(self.plain_segment([pair[0], pair[1]], &ends[k], *count, layout)?);
         }
-        if let Some(rim) = &layout.rim {
-            segments.extend(NearGrazing::new(self, rim, layout.size_parameter)?.segments()?);
+        if let Some(rim_layout) = &layout.rim {
+            let integral = NearGrazing::new(self, rim_layout, rim?, layout.size_parameter)?;
+            segments.extend(integral.segments()?);
         }
         Some(segments)
     }
@@ -114,22 +123,28 @@ impl DeflectionCurve<'_> {
             symmetric && matches!(start, Landmark::Axis(_)),
             matches!(end, Landmark::End(_)) || symmetric && matches!(end, Landmark::Axis(_)),
         ];
-        let mut knots = Vec::with_capacity(count + 1);
-        let mut focal_lines = a.exit.focal_lines;
-        for k in 0..=count {
-            let share = graded(k as f64 / count as f64, closer);
+        let alpha =
+            |k: usize| a.alpha + graded(k as f64 / count as f64, closer) * (b.alpha - a.alpha);
+        // focal lines are those of the ray nearest to the middle
+        let mut nearest = (f64::INFINITY, a.exit.focal_lines);
+        let traced = |k: usize| {
             let node = if k == 0 {
                 *a
             } else if k == count {
                 *b
             } else {
-                self.interpolated(a.alpha + share * (b.alpha - a.alpha))?
+                self.interpolated(alpha(k))?
             };
-            if 2 * k == count || 2 * k == count + 1 {
-                focal_lines = node.exit.focal_lines;
+            let off = (k as f64 - 0.5 * count as f64 - 0.25).abs();
+            if off < nearest.0 {
+                nearest = (off, node.exit.focal_lines);
             }
-            knots.push(self.plain_knot(&node, layout));
-        }
+            Some(KnotRay::new(self.plane(), &node))
+        };
+        let rays = rays_at_knots(count, layout.size_parameter, traced)?;
+        let focal_lines = nearest.1;
+        let knot = |(k, ray): (usize, &KnotRay)| self.plain_knot(alpha(k), ray, layout);
+        let mut knots: Vec<Knot> = rays.iter().enumerate().map(knot).collect();
         let slopes = parabola_slopes(&knots);
         for (knot, slope) in knots.iter_mut().zip(slopes) {
             *knot = SingleKnot { rates: slope.single().amplitudes, ..knot.single() }.into();
@@ -139,36 +154,33 @@ impl DeflectionCurve<'_> {
     }
 
     /// The spread of a ray, kept from zero where rays meet across the plane.
-    fn bounded_spread(&self, node: &Node, layout: &CutLayout) -> f64 {
+    fn bounded_spread(&self, ray: &KnotRay, layout: &CutLayout) -> f64 {
         const NEAREST: f64 = 0.05;
-        let spread = node.exit.spread().abs();
+        let [spread, across] = ray.spreads().map(f64::abs);
         let symmetric = self.plane().tracer.shape().rotational_symmetry();
         if !layout.high || symmetric {
             return spread;
         }
-        let across = self.plane().spread_across(&node.exit, node.angle).abs();
         spread * (across.max(NEAREST) / across)
     }
 
-    fn plain_knot(&self, node: &Node, layout: &CutLayout) -> Knot {
-        let (_, growing) = self.plane().frame(node.angle);
-        let transfer = self.plane().transfer(&node.exit, node.angle);
+    fn plain_knot(&self, alpha: f64, ray: &KnotRay, layout: &CutLayout) -> Knot {
         let x = layout.size_parameter;
         let (index, order) = (self.plane().tracer.index().re, self.plane().order);
         let rim = layout.rim.as_ref();
-        let left = rim.map(|rim| rim.left_to_ray(node.alpha.sin(), index, order, x));
-        let edge = layout.edge.map(|edge| reflected_share(&edge, node.angle, x));
+        let left = rim.map(|rim| rim.left_to_ray(alpha.sin(), index, order, x));
+        let edge = layout.edge.map(|edge| reflected_share(&edge, ray.angle(), x));
         let share = edge.or(left).unwrap_or_else(|| 1.0.into());
         // No wave is stronger than the whole shadow in phase, |S| ≤ x² area/2π: the bound on rays
         // that focus at infinity, as about the axis for indices of 2 and 4.
-        let spread = self.bounded_spread(node, layout).max(4.0 / x.powi(2));
+        let spread = self.bounded_spread(ray, layout).max(4.0 / x.powi(2));
         let size = share / spread.sqrt();
-        let elements = [transfer.s1, transfer.s2, transfer.s3, transfer.s4];
+        let [path, path_slope] = ray.path();
         let knot = SingleKnot {
-            angle: node.angle,
-            path: node.exit.path,
-            path_slope: -node.exit.reference.dot(growing),
-            amplitudes: elements.map(|s| s * size),
+            angle: ray.angle(),
+            path,
+            path_slope,
+            amplitudes: ray.transfer().map(|s| s * size),
             // from the neighbours, once all are known
             rates: Default::default(),
         };

@@ -6,11 +6,15 @@
 //! every plane, so that all their data vary smoothly with azimuth too.
 
 use super::fold::Fold;
+use super::guide::PlaneGuide;
 use super::landmark::Landmark;
-use super::scan::{Edge, Scan, ScannedRays};
-use super::scattering_plane::{Node, ScatteringPlane};
+use super::scan::{END, Edge, Scan, ScannedRays};
+use super::scattering_plane::{Node, ScannedRay, ScatteringPlane};
 use crate::shape::Silhouette;
 use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Where the last ray is to be found in α, if it ends no segment.
+const COARSE_END: f64 = 1e-5;
 
 /// A plane with its landmarks found, ready to be cut into segments.
 pub struct DeflectionCurve<'a> {
@@ -26,59 +30,19 @@ impl<'a> DeflectionCurve<'a> {
         silhouette: &'a Silhouette<'a>,
         scan: Scan,
     ) -> Option<Self> {
-        let rays = ScannedRays::new(plane, silhouette, scan)?;
-        let last = *rays.nodes.last()?;
-        let mut curve = Self { rays, landmarks: vec![Landmark::Axial], last };
-        curve.find_landmarks(FRAC_PI_2 / scan.nodes as f64, scan.limit)?;
-        Some(curve)
+        Self::guided(plane, silhouette, scan, None)
     }
 
-    /// Find the landmarks of rays launched up to `limit` (in α), and the last ray of all.
-    fn find_landmarks(&mut self, step: f64, limit: f64) -> Option<()> {
-        let start = self.rays.plane.axis_angle();
-        for k in 1..self.rays.nodes.len() {
-            let (a, b) = (self.rays.nodes[k - 1], self.rays.nodes[k]);
-            let half_turn = |n: &Node| ((n.angle - start) / PI).floor();
-            let before = half_turn(&a);
-            let crosses = before != half_turn(&b) && k > 1;
-            if b.alpha > limit {
-                if b.alpha - a.alpha > 1.5 * step {
-                    self.rays.nodes.truncate(k);
-                    break;
-                }
-            } else if crosses {
-                // the multiple of π between the two angles
-                let axis = start + PI * before.max(half_turn(&b));
-                self.landmarks.push(Landmark::Axis(axis));
-            } else if b.alpha - a.alpha > 1.5 * step {
-                // total reflection: what lies beyond is not followed
-                self.rays.nodes.truncate(k);
-                break;
-            } else if a.exit.spread() * b.exit.spread() < 0.0 && self.turns_back(k) {
-                let fold = Fold::between(&self.rays.plane, self.rays.silhouette, &a, &b)?;
-                self.landmarks.push(Landmark::Fold(fold));
-            }
-        }
-        let last = *self.rays.nodes.last()?;
-        self.last = self.rays.end_after(last, step);
-        if self.last.alpha > last.alpha {
-            self.rays.nodes.push(self.last);
-        }
-        let end = if self.last.alpha > limit { self.rays.interpolated(limit)? } else { self.last };
-        self.landmarks.push(Landmark::End(Box::new(end)));
-        Some(())
-    }
-
-    /// Whether the exit angle turns back between nodes `k - 1` and `k`: a fold of the plane. Else
-    /// a change of the spread's sign means that rays meet across the plane, as they do
-    /// near the axis for flattened particles.
-    fn turns_back(&self, k: usize) -> bool {
-        let angle = |k: usize| self.rays.nodes.get(k).map(|n| n.angle);
-        let here = self.rays.nodes[k].angle - self.rays.nodes[k - 1].angle;
-        let before =
-            k.checked_sub(2).and_then(angle).map_or(here, |a| self.rays.nodes[k - 1].angle - a);
-        let after = angle(k + 1).map_or(here, |a| a - self.rays.nodes[k].angle);
-        before * after < 0.0
+    /// The same by a guide, whose rays are not traced.
+    pub(crate) fn guided(
+        plane: ScatteringPlane<'a>,
+        silhouette: &'a Silhouette<'a>,
+        scan: Scan,
+        guide: Option<&PlaneGuide>,
+    ) -> Option<Self> {
+        let mut rays = ScannedRays::new(plane, silhouette, scan, guide)?;
+        let (landmarks, last) = landmarks(&mut rays, FRAC_PI_2 / scan.nodes as f64, scan.limit)?;
+        Some(Self { rays, landmarks, last })
     }
 
     /// The plane that this curve is.
@@ -87,7 +51,7 @@ impl<'a> DeflectionCurve<'a> {
     }
 
     /// The rays of the scan.
-    pub(crate) fn nodes(&self) -> &[Node] {
+    pub(crate) fn nodes(&self) -> &[ScannedRay] {
         &self.rays.nodes
     }
 
@@ -165,7 +129,7 @@ impl<'a> DeflectionCurve<'a> {
 
     /// Where the first scan crosses an axis.
     fn crossing(&self, axis: f64) -> Option<f64> {
-        let crosses = |w: &&[Node]| (w[0].angle - axis) * (w[1].angle - axis) <= 0.0;
+        let crosses = |w: &&[ScannedRay]| (w[0].angle - axis) * (w[1].angle - axis) <= 0.0;
         self.rays.nodes.windows(2).skip(1).find(crosses).map(|w| w[0].alpha.sin())
     }
 
@@ -176,6 +140,57 @@ impl<'a> DeflectionCurve<'a> {
             _ => None,
         })
     }
+}
+
+/// The landmarks of rays launched up to `limit` (in α), and the last ray of all; rays beyond it are dropped.
+fn landmarks(rays: &mut ScannedRays, step: f64, limit: f64) -> Option<(Vec<Landmark>, Node)> {
+    let start = rays.plane.axis_angle();
+    let mut landmarks = vec![Landmark::Axial];
+    for k in 1..rays.nodes.len() {
+        let (a, b) = (rays.nodes[k - 1], rays.nodes[k]);
+        let half_turn = |n: &ScannedRay| ((n.angle - start) / PI).floor();
+        let before = half_turn(&a);
+        let crosses = before != half_turn(&b) && k > 1;
+        if b.alpha > limit {
+            if b.alpha - a.alpha > 1.5 * step {
+                rays.nodes.truncate(k);
+                break;
+            }
+        } else if crosses {
+            // the multiple of π between the two angles
+            let axis = start + PI * before.max(half_turn(&b));
+            landmarks.push(Landmark::Axis(axis));
+        } else if b.alpha - a.alpha > 1.5 * step {
+            // total reflection: what lies beyond is not followed
+            rays.nodes.truncate(k);
+            break;
+        } else if a.spread * b.spread < 0.0 && turns_back(&rays.nodes, k) {
+            let fold = Fold::between(&rays.plane, rays.silhouette, &a, &b)?;
+            landmarks.push(Landmark::Fold(fold));
+        }
+    }
+    let scanned = *rays.nodes.last()?;
+    // beyond the limit the last ray only says how far others may be continued
+    let within = if scanned.alpha > limit { COARSE_END } else { END };
+    let last = rays.end_after(&scanned, step, within)?;
+    if last.alpha > scanned.alpha {
+        let beyond = rays.plane.scanned(&last);
+        rays.nodes.push(beyond);
+    }
+    let end = if last.alpha > limit { rays.interpolated(limit)? } else { last };
+    landmarks.push(Landmark::End(Box::new(end)));
+    Some((landmarks, last))
+}
+
+/// Whether the exit angle turns back between nodes `k - 1` and `k`: a fold of the plane. Else
+/// a change of the spread's sign means that rays meet across the plane, as they do
+/// near the axis for flattened particles.
+fn turns_back(nodes: &[ScannedRay], k: usize) -> bool {
+    let angle = |k: usize| nodes.get(k).map(|n| n.angle);
+    let here = nodes[k].angle - nodes[k - 1].angle;
+    let before = k.checked_sub(2).and_then(angle).map_or(here, |a| nodes[k - 1].angle - a);
+    let after = angle(k + 1).map_or(here, |a| a - nodes[k].angle);
+    before * after < 0.0
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 
 use super::pair_values::{PAIR_CHANNELS, PairValues};
 use super::root_path::RootPath;
-use super::scattering_plane::{Node, ScatteringPlane};
+use super::scattering_plane::{Node, ScannedRay, ScatteringPlane};
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::math::scalar::Scalar;
 use crate::shape::Silhouette;
@@ -47,36 +47,47 @@ struct Pair {
 }
 
 impl Fold {
-    /// Refine a fold between two neighbouring nodes whose spreads have opposite signs.
+    /// Refine a fold between two neighbouring rays whose spreads have opposite signs.
     pub fn between(
         plane: &ScatteringPlane,
         silhouette: &Silhouette,
-        before: &Node,
-        after: &Node,
+        before: &ScannedRay,
+        after: &ScannedRay,
     ) -> Option<Self> {
-        let (mut low, mut high) = (*before, *after);
-        let mut middle = low;
+        let (mut low, mut high) = ([before.alpha, before.psi], [after.alpha, after.psi]);
+        let (mut a, mut b) = (before.spread, after.spread);
+        let mut middle = None;
+        let mut moved_last = 0.0;
         for _ in 0..60 {
-            // Regula falsi towards the root of the spread, halving when it stalls.
-            let (a, b) = (low.exit.spread(), high.exit.spread());
-            let share = (a / (a - b)).clamp(0.05, 0.95);
-            let alpha = low.alpha + share * (high.alpha - low.alpha);
-            let psi = low.psi + share * (high.psi - low.psi);
-            middle = plane.node(silhouette, alpha, psi, low.angle)?;
-            if middle.exit.spread() * a > 0.0 {
-                low = middle
+            // Regula falsi towards the root of the spread; the end that stays counts for half (Illinois).
+            let share = (a / (a - b)).clamp(0.01, 0.99);
+            let [alpha, psi] = [0, 1].map(|k| low[k] + share * (high[k] - low[k]));
+            let node = plane.node(silhouette, alpha, psi, before.angle)?;
+            let spread = node.exit.spread();
+            middle = Some(node);
+            let moved = (spread * a).signum();
+            if moved > 0.0 {
+                (low, a) = ([alpha, node.psi], spread);
+                b *= if moved_last == moved { 0.5 } else { 1.0 };
             } else {
-                high = middle
+                (high, b) = ([alpha, node.psi], spread);
+                a *= if moved_last == moved { 0.5 } else { 1.0 };
             }
-            if (high.alpha - low.alpha).abs() < 1e-11 || middle.exit.spread().abs() < 1e-13 {
+            moved_last = moved;
+            if (high[0] - low[0]).abs() < 1e-11 || spread.abs() < 1e-12 {
                 break;
             }
         }
-        Self::at(plane, &middle, before, after)
+        Self::at(plane, &middle?, before, after)
     }
 
     /// Local geometry: how the angle bends along the plane at the fold.
-    fn at(plane: &ScatteringPlane, fold: &Node, before: &Node, after: &Node) -> Option<Self> {
+    fn at(
+        plane: &ScatteringPlane,
+        fold: &Node,
+        before: &ScannedRay,
+        after: &ScannedRay,
+    ) -> Option<Self> {
         let lit = (0.5 * (before.angle + after.angle) - fold.angle).signum();
         // The kernel of the map of directions: ds(kernel) = 0.
         let (_, growing) = plane.frame(fold.angle);
@@ -275,8 +286,10 @@ mod tests {
         let silhouette = shape.silhouette();
         let plane = ScatteringPlane::new(&tracer, order, 0.0, [0.0; 2]);
         let alpha = bow(order).asin();
-        let node =
-            |alpha: f64| plane.node(&silhouette, alpha, 0.0, ray(order, alpha.sin()).0).unwrap();
+        let node = |alpha: f64| {
+            let angle = ray(order, alpha.sin()).0;
+            plane.scanned(&plane.node(&silhouette, alpha, 0.0, angle).unwrap())
+        };
         let fold =
             Fold::between(&plane, &silhouette, &node(alpha - 0.013), &node(alpha + 0.021)).unwrap();
         test(&fold, &plane);

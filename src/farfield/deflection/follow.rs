@@ -3,7 +3,9 @@
 //! Where a plane crosses the axis again, rays of many azimuths leave in almost one direction and its
 //! branches are entangled; so every stretch between crossings is followed from its own middle.
 
-use super::scattering_plane::{GRAZING, Node, ScatteringPlane};
+use super::guide::PlaneGuide;
+use super::scattering_plane::{GRAZING, Node, ScannedRay, ScatteringPlane};
+use crate::math::interpolate::lagrange;
 use crate::shape::Silhouette;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -13,12 +15,18 @@ impl ScatteringPlane<'_> {
     /// Where the plane crosses the axis again, rays of many azimuths leave in almost one direction
     /// and its branches are entangled, within `axis_gap` of the axis. So every stretch between
     /// crossings is followed from its own middle, where rays are nearly those of a sphere, to both
-    /// sides, until the first node inside the gap.
-    pub fn scan(&self, silhouette: &Silhouette, count: usize, axis_gap: f64) -> Vec<Option<Node>> {
+    /// sides, until the first node inside the gap. Rays that a guide knows are not traced.
+    pub(super) fn scan(
+        &self,
+        silhouette: &Silhouette,
+        count: usize,
+        axis_gap: f64,
+        guide: Option<&PlaneGuide>,
+    ) -> Vec<Option<ScannedRay>> {
         let mut nodes = vec![None; count];
         let stretches = self.stretches(count);
         for (j, &[from, seed, to]) in stretches.iter().enumerate() {
-            let way = Way { plane: self, silhouette, count, axis_gap };
+            let way = Way { plane: self, silhouette, count, axis_gap, guide };
             let start = if j == 0 { self.first_azimuth() } else { self.azimuth };
             let Some(first) = way.seed(seed, start, j > 0) else { continue };
             way.follow(&mut nodes, first, seed..to);
@@ -99,17 +107,60 @@ impl ScatteringPlane<'_> {
     }
 }
 
+/// Launch azimuths of the last nodes of a scan, to be continued.
+struct Trail {
+    /// `(α, ψ)`, the last one last.
+    last: Vec<(f64, f64)>,
+}
+
+impl Trail {
+    /// Nodes that a polynomial is continued from.
+    const MOST: usize = 5;
+
+    fn new(first: &ScannedRay) -> Self {
+        Self { last: vec![(first.alpha, first.psi)] }
+    }
+
+    fn add(&mut self, node: &ScannedRay) {
+        self.last.retain(|&(alpha, _)| alpha != node.alpha);
+        if self.last.len() == Self::MOST {
+            self.last.remove(0);
+        }
+        self.last.push((node.alpha, node.psi));
+    }
+
+    /// Guesses of the azimuth at `α`, the best first: next to total reflection it runs like a square root, and lower
+    /// degrees do better.
+    fn guesses(&self, alpha: f64) -> impl Iterator<Item = f64> {
+        let degrees = [Self::MOST, 2].into_iter().map(|most| self.last.len().min(most));
+        degrees.map(move |count| lagrange(&self.last[self.last.len() - count..], alpha))
+    }
+}
+
 /// Following a plane from node to node of a scan.
 struct Way<'m, 'a, 's> {
     plane: &'m ScatteringPlane<'a>,
     silhouette: &'s Silhouette<'s>,
     count: usize,
     axis_gap: f64,
+    guide: Option<&'s PlaneGuide<'s>>,
 }
 
 impl Way<'_, '_, '_> {
+    /// A ray that is known without tracing.
+    fn known(&self, i: usize) -> Option<ScannedRay> {
+        let (alpha, [psi, angle, spread, across]) =
+            (self.plane.alpha(i, self.count), self.guide?.ray(i)?);
+        let (place, _) = self.plane.place(self.silhouette, alpha, psi);
+        Some(ScannedRay { alpha, psi, place, angle, spread, across })
+    }
+
     /// The node to start from, with the launch azimuth expected there.
-    fn seed(&self, i: usize, azimuth: f64, search: bool) -> Option<Node> {
+    fn seed(&self, i: usize, azimuth: f64, search: bool) -> Option<ScannedRay> {
+        let known = self.known(i);
+        if known.is_some() {
+            return known;
+        }
         let (m, s) = (self.plane, self.silhouette);
         let alpha = m.alpha(i, self.count);
         let near = m.angle_on_sphere(alpha);
@@ -117,22 +168,28 @@ impl Way<'_, '_, '_> {
         m.node(s, alpha, azimuth, near)
             .filter(close)
             .or_else(|| m.search(s, alpha, near, 2.0 * self.axis_gap))
+            .map(|node| m.scanned(&node))
     }
 
     /// Go from `first` over the nodes of a range; stop inside the gap about the axis.
-    fn follow(&self, nodes: &mut [Option<Node>], first: Node, range: impl Iterator<Item = usize>) {
+    fn follow(
+        &self,
+        nodes: &mut [Option<ScannedRay>],
+        first: ScannedRay,
+        range: impl Iterator<Item = usize>,
+    ) {
         let (m, s) = (self.plane, self.silhouette);
-        let (mut before, mut psi_rate) = (first, 0.0);
+        let mut trail = Trail::new(&first);
+        let mut before = first;
         for i in range {
             let alpha = m.alpha(i, self.count);
-            let ahead = alpha - before.alpha;
             let near = before.angle + m.angle_on_sphere(alpha) - m.angle_on_sphere(before.alpha);
-            let Some(node) = m.node(s, alpha, before.psi + psi_rate * ahead, near) else {
-                continue;
+            let traced = || {
+                let node = trail.guesses(alpha).find_map(|psi| m.node(s, alpha, psi, near))?;
+                Some(m.scanned(&node))
             };
-            if ahead != 0.0 {
-                psi_rate = (node.psi - before.psi) / ahead;
-            }
+            let Some(node) = self.known(i).or_else(traced) else { continue };
+            trail.add(&node);
             nodes[i] = Some(node);
             before = node;
             let turns = (node.angle - m.axis_angle()) / PI;

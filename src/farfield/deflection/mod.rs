@@ -4,7 +4,9 @@
 pub mod curve;
 pub mod fold;
 mod follow;
+pub(crate) mod guide;
 pub mod landmark;
+mod node;
 pub mod pair_values;
 mod root_path;
 pub mod scan;

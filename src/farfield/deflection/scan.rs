@@ -1,13 +1,18 @@
 //! Searching rays along a curve: by launch coordinate, by angle, at the edges of its segments.
 
-use super::scattering_plane::{GRAZING, Node, ScatteringPlane};
+use super::guide::PlaneGuide;
+use super::scattering_plane::{GRAZING, Node, SETTLED, ScannedRay, ScatteringPlane};
+use crate::math::interpolate::lagrange;
 use crate::shape::Silhouette;
 use std::f64::consts::FRAC_PI_2;
 
 /// Ends of plain segments are bisected to this in α.
-const END_TOLERANCE: f64 = 1e-9;
+pub(super) const END: f64 = 1e-9;
 /// Rays of a scan without which no landmark can be told.
 const FEWEST: usize = 8;
+
+/// Steps of Newton's method, halving where it would leave its bracket.
+const MOST_STEPS: usize = 60;
 
 /// Where a plain segment begins or ends.
 #[derive(Clone, Debug)]
@@ -33,37 +38,42 @@ pub struct Scan {
 pub(crate) struct ScannedRays<'a> {
     pub plane: ScatteringPlane<'a>,
     pub silhouette: &'a Silhouette<'a>,
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<ScannedRay>,
+    /// Step of α from node to node where none is missing.
+    step: f64,
 }
 
 impl<'a> ScannedRays<'a> {
     /// `None` where too few rays leave.
-    pub(crate) fn new(
+    pub(super) fn new(
         plane: ScatteringPlane<'a>,
         silhouette: &'a Silhouette<'a>,
         scan: Scan,
+        guide: Option<&PlaneGuide>,
     ) -> Option<Self> {
-        let found = plane.scan(silhouette, scan.nodes, scan.axis_gap);
-        let nodes: Vec<Node> = found.iter().flatten().copied().collect();
-        (nodes.len() >= FEWEST).then_some(Self { plane, silhouette, nodes })
+        let found = plane.scan(silhouette, scan.nodes, scan.axis_gap, guide);
+        let nodes: Vec<ScannedRay> = found.into_iter().flatten().collect();
+        let step = FRAC_PI_2 / scan.nodes as f64;
+        (nodes.len() >= FEWEST).then_some(Self { plane, silhouette, nodes, step })
     }
 
-    /// The last ray that still leaves, within a step beyond a node. Rays farther out may leave
-    /// again, but total reflection parts them from this stretch.
-    pub(crate) fn end_after(&self, last: Node, step: f64) -> Node {
+    /// The last ray that still leaves, within a step beyond a ray of the scan. Rays farther out may leave
+    /// again, but total reflection parts them from this stretch. Found `within` so much in α.
+    pub(crate) fn end_after(&self, last: &ScannedRay, step: f64, within: f64) -> Option<Node> {
         let rim = FRAC_PI_2 - GRAZING;
-        let (mut good, mut bad) = (last, (last.alpha + 1.01 * step).min(rim));
+        let mut bad = (last.alpha + 1.01 * step).min(rim);
         if let Some(node) = self.plane.node(self.silhouette, bad, last.psi, last.angle) {
-            return node;
+            return Some(node);
         }
-        while bad - good.alpha > END_TOLERANCE {
+        let mut good = self.plane.node(self.silhouette, last.alpha, last.psi, last.angle)?;
+        while bad - good.alpha > within {
             let middle = 0.5 * (bad + good.alpha);
             match self.plane.node(self.silhouette, middle, good.psi, good.angle) {
                 Some(node) => good = node,
                 None => bad = middle,
             }
         }
-        good
+        Some(good)
     }
 
     /// A ray at `α`, its neighbours in the scan giving the guess.
@@ -74,9 +84,25 @@ impl<'a> ScannedRays<'a> {
         let share = (alpha - a.alpha) / (b.alpha - a.alpha);
         let angle = a.angle + share * (b.angle - a.angle);
         // next to total reflection the azimuth runs like a square root: other guesses may do better
-        [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter().find_map(|s| {
-            self.plane.node(self.silhouette, alpha, a.psi + s * (b.psi - a.psi), angle)
-        })
+        let linear = [share, 0.0, 1.0, 0.5 * share, 0.5 + 0.5 * share].into_iter();
+        let linear = linear.map(|s| a.psi + s * (b.psi - a.psi));
+        let guesses = self.smooth_azimuth(k, alpha).into_iter().chain(linear);
+        guesses.into_iter().find_map(|psi| self.plane.node(self.silhouette, alpha, psi, angle))
+    }
+
+    /// The launch azimuth at `α` between nodes `k - 1` and `k`, by the polynomial through the nearest nodes, where none
+    /// is missing among them.
+    fn smooth_azimuth(&self, k: usize, alpha: f64) -> Option<f64> {
+        const STENCIL: usize = 6;
+        let nodes = &self.nodes;
+        if self.plane.rotational || nodes.len() < STENCIL {
+            return None;
+        }
+        let first = (k as i64 - STENCIL as i64 / 2).clamp(0, (nodes.len() - STENCIL) as i64);
+        let near = &nodes[first as usize..first as usize + STENCIL];
+        let whole = near.windows(2).all(|w| w[1].alpha - w[0].alpha < 1.5 * self.step);
+        let points: [(f64, f64); STENCIL] = std::array::from_fn(|j| (near[j].alpha, near[j].psi));
+        whole.then(|| lagrange(&points, alpha))
     }
 
     /// The ray at an edge of a plain segment.
@@ -100,47 +126,56 @@ impl<'a> ScannedRays<'a> {
     /// The ray of a given angle, beyond (`is_start`) or before `α = near`.
     pub(crate) fn at_angle(&self, angle: f64, near: f64, is_start: bool) -> Option<Node> {
         let nodes = &self.nodes;
-        let window = |w: &[Node]| (w[0].angle - angle) * (w[1].angle - angle) <= 0.0;
+        let window = |w: &[ScannedRay]| (w[0].angle - angle) * (w[1].angle - angle) <= 0.0;
         let bracket = if is_start {
             nodes.windows(2).find(|w| w[1].alpha >= near && window(w))
         } else {
             nodes.windows(2).rev().find(|w| w[0].alpha <= near && window(w))
         };
-        let (mut a, mut b) = match bracket {
-            Some(w) => (w[0], w[1]),
-            // between the last node of the scan and the edge of the gap, extrapolate
-            None => return self.beyond_scan(angle, near),
-        };
-        for _ in 0..40 {
-            let share = ((angle - a.angle) / (b.angle - a.angle)).clamp(0.02, 0.98);
-            let (alpha, psi) =
-                (a.alpha + share * (b.alpha - a.alpha), a.psi + share * (b.psi - a.psi));
-            let node = self.plane.node(self.silhouette, alpha, psi, angle)?;
-            if (node.angle - angle).abs() < 1e-13 || b.alpha - a.alpha < 1e-14 {
-                return Some(Node { angle, ..node });
+        // between the last node of the scan and the edge of the gap, extrapolate
+        let Some(bracket) = bracket else { return self.beyond_scan(angle, near) };
+        let (a, b) = (&bracket[0], &bracket[1]);
+        let (mut low, mut high) = (a.alpha, b.alpha);
+        let mut alpha = low + (angle - a.angle) / (b.angle - a.angle) * (high - low);
+        for _ in 0..MOST_STEPS {
+            let node = self.interpolated(alpha)?;
+            let off = node.angle - angle;
+            if off * (a.angle - angle) > 0.0 {
+                low = alpha
+            } else {
+                high = alpha
             }
-            if (node.angle - angle) * (a.angle - angle) > 0.0 { a = node } else { b = node }
+            let rates = self.plane.rates(self.silhouette, &node);
+            let step = -off / rates.angle;
+            if step.abs() < SETTLED || high - low < 1e-14 {
+                let settled = if step.abs() < SETTLED { node.moved(&rates, step) } else { node };
+                return Some(Node { angle, ..settled });
+            }
+            alpha += step;
+            if !(low < alpha && alpha < high) {
+                alpha = 0.5 * (low + high);
+            }
         }
-        let node = self.plane.node(self.silhouette, 0.5 * (a.alpha + b.alpha), a.psi, angle)?;
-        Some(Node { angle, ..node })
+        None
     }
 
     /// A ray just outside the scanned stretch next to `α = near`, by Newton's method on the angle.
     pub(crate) fn beyond_scan(&self, angle: f64, near: f64) -> Option<Node> {
-        let nearest = |n: &&Node| (n.alpha - near).abs();
-        let mut node = *self.nodes.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)))?;
-        let h = 1e-5;
+        let off = |n: &&ScannedRay| (n.alpha - near).abs();
+        let nearest = self.nodes.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let mut node =
+            self.plane.node(self.silhouette, nearest.alpha, nearest.psi, nearest.angle)?;
         for _ in 0..20 {
-            let ahead = self.plane.node(self.silhouette, node.alpha + h, node.psi, node.angle)?;
-            let rate = (ahead.angle - node.angle) / h;
-            let step = (angle - node.angle) / rate;
+            let rates = self.plane.rates(self.silhouette, &node);
+            let step = (angle - node.angle) / rates.angle;
             if step.is_nan() || step.abs() >= 0.3 {
                 return None;
             }
-            node = self.plane.node(self.silhouette, node.alpha + step, node.psi, angle)?;
-            if (node.angle - angle).abs() < 1e-12 {
-                return Some(Node { angle, ..node });
+            if step.abs() < SETTLED {
+                return Some(Node { angle, ..node.moved(&rates, step) });
             }
+            let psi = node.psi + step * rates.psi;
+            node = self.plane.node(self.silhouette, node.alpha + step, psi, angle)?;
         }
         None
     }
@@ -164,7 +199,7 @@ mod tests {
         let silhouette = shape.silhouette();
         let plane = ScatteringPlane::new(&tracer, order, 0.3, [0.0; 2]);
         let scan = Scan { nodes: 96, axis_gap: 0.02, limit: FRAC_PI_2 };
-        test(&ScannedRays::new(plane, &silhouette, scan).unwrap());
+        test(&ScannedRays::new(plane, &silhouette, scan, None).unwrap());
     }
 
     #[test]
@@ -207,8 +242,8 @@ mod tests {
     fn the_last_ray_is_where_total_reflection_begins() {
         with_rays(0.75, 1, |rays| {
             let step = FRAC_PI_2 / 96.0;
-            let last = *rays.nodes.iter().rfind(|n| n.alpha < 0.75f64.asin()).unwrap();
-            let end = rays.end_after(last, step);
+            let last = rays.nodes.iter().rfind(|n| n.alpha < 0.75f64.asin()).unwrap();
+            let end = rays.end_after(last, step, END).unwrap();
             assert!((end.alpha - 0.75f64.asin()).abs() < 1e-8, "{}", end.alpha);
         });
     }

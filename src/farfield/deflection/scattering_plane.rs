@@ -7,6 +7,9 @@
 //! problem of sheets and caustics becomes one of branches of a function of one variable, for any
 //! smooth drop.
 
+pub use super::node::Node;
+use super::node::Rates;
+pub(crate) use super::node::ScannedRay;
 use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 use crate::optics::AmplitudeMatrix;
@@ -29,23 +32,13 @@ pub struct ScatteringPlane<'a> {
     pub(super) rotational: bool,
 }
 
-/// One ray of a plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Node {
-    /// Launch coordinate: `sin α` of the way from the axial ray to the rim.
-    pub alpha: f64,
-    /// Azimuth of the launch point on the emitting plane, radians.
-    pub psi: f64,
-    /// Launch point.
-    pub place: [f64; 2],
-    /// Unwrapped exit angle.
-    pub angle: f64,
-    /// Where and how the ray leaves.
-    pub exit: Exit<f64>,
-}
-
 /// Newton steps allowed; convergence is quadratic.
 const STEPS: usize = 12;
+/// Step (radians) that is taken without tracing again: what is linear in it follows from the ray's differentials, what is
+/// not is below rounding in a path, and fields err by some times the step.
+pub(super) const SETTLED: f64 = 1e-6;
+/// The same (radii) next to caustics: what parts the two rays there is divided by the root of a small angle.
+const SETTLED_NEAR_CAUSTIC: f64 = 1e-13;
 /// Closest approach of a launch to the rim, in α.
 pub const GRAZING: f64 = 1e-4;
 /// Largest turn of the launch azimuth between neighbouring nodes.
@@ -131,19 +124,44 @@ impl<'a> ScatteringPlane<'a> {
             let exit = self.exit(place)?;
             let turn = exit.ds[0] * by_psi[0] + exit.ds[1] * by_psi[1];
             let (miss, rate) = (exit.direction.dot(self.across), turn.dot(self.across));
-            let step = if self.rotational { 0.0 } else { miss / rate };
+            if self.rotational || miss.abs() < 1e-15 {
+                return Some(self.finish(alpha, psi, place, exit, near));
+            }
+            let step = miss / rate;
             if step.is_nan() || step.abs() >= LARGEST_TURN {
                 return None;
             }
-            if step.abs() < 1e-13 || self.rotational || miss.abs() < 1e-15 {
-                return Some(self.finish(alpha, psi, place, exit, near));
-            }
             psi -= step;
+            if step.abs() < SETTLED {
+                let aside = by_psi.map(|rate| -step * rate);
+                let place = [place[0] + aside[0], place[1] + aside[1]];
+                return Some(self.finish(alpha, psi, place, exit.moved(aside), near));
+            }
             if (psi - guess).abs() > LARGEST_TURN {
                 return None;
             }
         }
         None
+    }
+
+    /// What a scan keeps of a node.
+    pub(super) fn scanned(&self, node: &Node) -> ScannedRay {
+        let Node { alpha, psi, place, angle, exit } = node;
+        let (spread, across) = (exit.spread(), self.spread_across(exit, *angle));
+        ScannedRay { alpha: *alpha, psi: *psi, place: *place, angle: *angle, spread, across }
+    }
+
+    /// What changes along the plane by the launch coordinate, next to a node.
+    pub(super) fn rates(&self, silhouette: &Silhouette, node: &Node) -> Rates {
+        let (_, by_psi) = self.place(silhouette, node.alpha, node.psi);
+        let (rim, _) = silhouette.radius_and_slope(node.psi);
+        let ((sin, cos), [cu, cv]) = (node.psi.sin_cos(), self.centre);
+        let outward = [rim * cos - cu, rim * sin - cv].map(|way| node.alpha.cos() * way);
+        let turn = |way: [f64; 2]| node.exit.ds[0] * way[0] + node.exit.ds[1] * way[1];
+        let aside = |way: [f64; 2]| turn(way).dot(self.across);
+        let psi = if self.rotational { 0.0 } else { -aside(outward) / aside(by_psi) };
+        let place = [0, 1].map(|k| outward[k] + psi * by_psi[k]);
+        Rates { angle: turn(place).dot(self.frame(node.angle).1), psi, place }
     }
 
     fn finish(&self, alpha: f64, psi: f64, place: [f64; 2], exit: Exit<f64>, near: f64) -> Node {
@@ -181,10 +199,10 @@ impl<'a> ScatteringPlane<'a> {
             if size.is_nan() || size >= 0.3 {
                 return None;
             }
-            if size < 1e-13 || (size < 1e-9 && size > 0.5 * last_step) {
-                return Some((place, exit));
-            }
             place = [place[0] - step[0], place[1] - step[1]];
+            if size < SETTLED_NEAR_CAUSTIC || (size < 1e-9 && size > 0.5 * last_step) {
+                return Some((place, exit.moved([-step[0], -step[1]])));
+            }
             last_step = size;
         }
         None

@@ -1,6 +1,7 @@
 //! What the surface makes of a ray's field, from how the ray meets it each time: also where no real ray
 //! does, beyond the rim.
 
+use crate::math::scalar::Scalar;
 use crate::math::vec3::Vec3;
 use crate::optics::{Grazing, curved_from_inside};
 use crate::trace::Meeting;
@@ -31,7 +32,7 @@ pub(crate) fn transfer(
     for (hit, MeetingChannels { square, radius, turn: before }) in meetings.enumerate() {
         turn(&mut fields, before);
         let grazing = Grazing::whole(square, x * radius);
-        let inside = (1.0 - (1.0 - square) / (index * index)).sqrt();
+        let inside = (1.0 - (1.0 - square) / (index * index)).root();
         let f = curved_from_inside(inside, index, &grazing);
         let through = hit == 0 || hit + 1 == count;
         let (perpendicular, parallel) = if through {

@@ -8,4 +8,6 @@ pub mod near_critical;
 pub mod near_grazing;
 pub mod near_grazing_layout;
 mod prefactor;
+mod ray_channels;
 pub mod rays;
+mod smooth_part;

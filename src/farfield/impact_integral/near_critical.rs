@@ -15,7 +15,7 @@ use crate::farfield::branch::knots::{Kind, Knot, Segment};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::fold::Fold;
-use crate::farfield::deflection::scattering_plane::Node;
+use crate::farfield::deflection::scattering_plane::{Node, ScannedRay};
 use std::f64::consts::TAU;
 
 /// Squared cosine outside below which the coefficients of reflection run too fast for a series.
@@ -42,10 +42,9 @@ const KNOTS_PER_UNIT: f64 = 2.0;
 
 /// Whether a ray meets the surface inside near or beyond the critical angle, other than by being near
 /// the rim.
-fn meets_total_reflection(curve: &DeflectionCurve, ray: &Node) -> bool {
+fn meets_total_reflection(curve: &DeflectionCurve, [u, v]: [f64; 2]) -> bool {
     let plane = curve.plane();
     let mut meetings = Vec::new();
-    let [u, v] = ray.place;
     plane.tracer.trace_with_meetings(u, v, plane.order, &mut meetings);
     let Some(entry) = meetings.first() else { return false };
     let critical = NEAR_CRITICAL.min(BELOW_ENTRY * entry.cos_squared_outside);
@@ -57,11 +56,13 @@ fn meets_total_reflection(curve: &DeflectionCurve, ray: &Node) -> bool {
 pub(crate) fn critical_angles(curve: &DeflectionCurve, ends: &[[Node; 2]]) -> Vec<f64> {
     let nearest = |(k, fold): (usize, &Fold)| {
         let [first, last] = [ends[k - 1][1], ends[k][0]];
-        let between = |ray: &&Node| first.alpha < ray.alpha && ray.alpha < last.alpha;
-        let scanned = curve.nodes().iter().filter(between).copied();
-        let rays = scanned.chain([first, last]).chain(curve.interpolated(fold.alpha));
-        rays.filter(|ray| meets_total_reflection(curve, ray))
-            .map(|ray| (ray.angle - fold.angle).abs())
+        let between = |ray: &&ScannedRay| first.alpha < ray.alpha && ray.alpha < last.alpha;
+        let scanned = curve.nodes().iter().filter(between).map(|ray| (ray.place, ray.angle));
+        let traced = [first, last].into_iter().chain(curve.interpolated(fold.alpha));
+        scanned
+            .chain(traced.map(|ray| (ray.place, ray.angle)))
+            .filter(|&(place, _)| meets_total_reflection(curve, place))
+            .map(|(_, angle)| (angle - fold.angle).abs())
             .fold(f64::INFINITY, f64::min)
     };
     curve.numbered_folds().map(nearest).collect()
@@ -106,12 +107,12 @@ impl Stretch {
     fn about(curve: &DeflectionCurve, fold: &Fold, limits: [f64; 2], x: f64) -> Option<Self> {
         let across = |ray: &Node| curve.plane().spread_across(&ray.exit, ray.angle);
         let least = LEAST_SPREAD * across(&curve.ray_at(fold.alpha.sin())?);
-        let serves = |ray: &&Node| across(ray) * least.signum() > least.abs();
-        let (inside, beyond): (Vec<&Node>, Vec<&Node>) =
+        let serves = |ray: &&ScannedRay| ray.across * least.signum() > least.abs();
+        let (inside, beyond): (Vec<&ScannedRay>, Vec<&ScannedRay>) =
             curve.nodes().iter().partition(|ray| ray.alpha < fold.alpha);
         let first = inside.iter().rev().take_while(|ray| serves(ray)).last()?;
         let last = beyond.iter().take_while(|ray| serves(ray)).last()?;
-        let off = |ray: &Node| (ray.angle - fold.angle).abs();
+        let off = |ray: &ScannedRay| (ray.angle - fold.angle).abs();
         let (mut from, mut to, mut reach) = (limits[0], limits[1], f64::MAX);
         if first.alpha > inside.first()?.alpha {
             (from, reach) = (from.max(first.alpha.sin()), INNER_SHARE * off(first));

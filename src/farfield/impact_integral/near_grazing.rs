@@ -29,23 +29,23 @@ use std::f64::consts::PI;
 /// The integral over rays near the rim of one plane.
 pub(crate) struct NearGrazing<'l> {
     layout: &'l NearGrazingLayout,
-    rays: Rays,
+    rays: &'l Rays,
     before: Prefactor,
     integrand: Integrand,
     size_parameter: f64,
 }
 
 impl<'l> NearGrazing<'l> {
-    /// `None` where its rays cannot be followed that far.
+    /// From the rays of a layout. `None` where the surface cannot be followed as far as waves tunnel.
     pub(crate) fn new(
         curve: &DeflectionCurve,
         layout: &'l NearGrazingLayout,
+        rays: &'l Rays,
         size_parameter: f64,
     ) -> Option<Self> {
         // the phase's slope strays beyond the knots by this at most
         const STRAY: f64 = 0.5;
         let index = curve.plane().tracer.index();
-        let rays = layout.rays(curve)?;
         let offsets = || layout.knots.iter().flatten().map(|knot| knot[0]);
         let (low, high) = (offsets().fold(f64::MAX, f64::min), offsets().fold(f64::MIN, f64::max));
         let end = rays.end_of_tunnel(index, size_parameter);

@@ -6,6 +6,7 @@ use crate::farfield::assignment::near_grazing_taper::{airy_angle, deviation_slop
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use num_complex::Complex64;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -104,8 +105,8 @@ impl NearGrazingLayout {
     }
 
     /// Spread knots that serve all curves of an order: from the ray at `start` past the bow, as far as
-    /// its dark side reaches. `None` where they would reach the axis, where waves from all azimuths
-    /// meet.
+    /// its dark side reaches. The real rays of each curve come with it. `None` where they would reach the
+    /// axis, where waves from all azimuths meet.
     pub fn spread_knots(
         &mut self,
         curves: &[&DeflectionCurve],
@@ -113,7 +114,7 @@ impl NearGrazingLayout {
         index: f64,
         caustic_disorder: f64,
         x: f64,
-    ) -> Option<()> {
+    ) -> Option<Vec<Rays>> {
         const DARK_ZETA: f64 = 7.5;
         const PENUMBRA: f64 = 8.0;
         const LONGEST_DARK: f64 = 0.45;
@@ -121,8 +122,11 @@ impl NearGrazingLayout {
         if self.one_plane_to.is_none() {
             self.keeps_off_axis(curves, axis_gap)?;
         }
+        let rays: Vec<Rays> =
+            curves.par_iter().map(|curve| self.rays(curve)).collect::<Option<_>>()?;
+        let known = curves.iter().zip(&rays);
         let marks: Vec<Marks> =
-            curves.iter().map(|curve| Marks::of(curve, self)).collect::<Option<_>>()?;
+            known.map(|(curve, rays)| Marks::of(curve, rays, self)).collect::<Option<_>>()?;
         let sense = marks[0].sense;
         let least = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MAX, f64::min);
         let most = |f: fn(&Marks) -> f64| marks.iter().map(f).fold(f64::MIN, f64::max);
@@ -150,7 +154,7 @@ impl NearGrazingLayout {
             vec![before_axis(all, &marks)]
         };
         self.knots.retain(|run| run.len() > 1);
-        (!self.knots.is_empty()).then_some(())
+        (!self.knots.is_empty()).then_some(rays)
     }
 
     /// `None` where rays in the taper leave too near the axis.
@@ -212,11 +216,11 @@ struct Marks {
 }
 
 impl Marks {
-    fn of(curve: &DeflectionCurve, layout: &NearGrazingLayout) -> Option<Self> {
+    fn of(curve: &DeflectionCurve, rays: &Rays, layout: &NearGrazingLayout) -> Option<Self> {
         let first = curve.ray_at(layout.start)?.angle;
         let [farthest, last] = curve.reaches(layout.start, layout.full)?;
         let sense = farthest.signum();
-        let anchor = layout.rays(curve)?.anchor(layout.bow).angle;
+        let anchor = rays.anchor(layout.bow).angle;
         let start = sense * (first - anchor);
         Some(Self {
             anchor,

@@ -5,10 +5,12 @@
 //! zones, and the coefficients of the curved interface ([`Grazing::whole`]) follow from them there.
 
 use super::integrand::Integrand;
-use super::met_fields::{MeetingChannels, transfer, turned_frames};
+use super::met_fields::{MeetingChannels, transfer};
+use super::ray_channels::{Channels, row, unwrap_turns};
+use super::smooth_part::SmoothPart;
 use crate::farfield::deflection::curve::DeflectionCurve;
 use crate::farfield::deflection::scan::Scan;
-use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane};
+use crate::farfield::deflection::scattering_plane::ScatteringPlane;
 use crate::math::chebyshev::{self, Chebyshev};
 use crate::optics::Grazing;
 use crate::shape::Shape;
@@ -22,6 +24,11 @@ pub(crate) const RAYS: usize = 20;
 pub(crate) const TUNNEL: f64 = 4.0;
 /// Samples of the integrand per period of its phase.
 const SAMPLES_PER_PERIOD: f64 = 1.8;
+/// Samples of which each is computed by itself.
+const FEW: usize = 64;
+/// Phase of the wave outside, from its turning point to the surface, from which on the coefficients of the curved
+/// interface are asymptotic series.
+const FAR: f64 = 18.0;
 
 /// What the integral needs along a plane, as polynomials in the launch point `sin α`.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,20 +37,6 @@ pub(crate) struct Rays {
     /// Launch points of the first and the last real ray.
     from: f64,
     to: f64,
-}
-
-/// What is known of a ray, or the polynomials through that of all.
-#[derive(Clone, Debug, PartialEq)]
-struct Channels<T> {
-    impact: T,
-    /// Path L without the part outside.
-    path: T,
-    spreading: T,
-    /// Path inside.
-    inside: T,
-    meetings: Vec<MeetingChannels<T>>,
-    /// Last turn of the frame.
-    last_turn: T,
 }
 
 /// The reference of a rim wave: impact and path of the waves at the bow's impact, and the angle at
@@ -152,20 +145,68 @@ impl Rays {
         let step = (end - self.from) / count;
         let count = count as usize;
         let mut integrand = Integrand::with_capacity(count);
+        let place = |k: usize| self.from + k as f64 * step;
+        // where entry and exit are far from grazing, all but the path is smooth once the ways outside are in it
+        let far = |sin: f64| self.outside(sin).into_iter().all(|way| x * way > FAR);
+        let smooth_count = (1..count).take_while(|&k| far(place(k))).count();
+        let turned = |sin: f64| {
+            let turn = Complex64::cis(x * self.outside(sin).iter().sum::<f64>());
+            Some(self.amplitude(sin, index, x)?.map(|m| m * turn))
+        };
+        let smooth = if smooth_count > FEW {
+            let ends = [place(1), place(smooth_count)];
+            Some(SmoothPart::between(ends, |sin| self.zone(sin, x), turned)?)
+        } else {
+            None
+        };
         for k in 1..count {
-            let sin = self.from + k as f64 * step;
+            let sin = place(k);
             let weight = weight(sin) * step;
-            let matrix = self.transfer(sin, index, x)?;
-            let [spreading] = self.channels.spreading.value(sin);
-            let (impact, rate) = self.impact(sin);
-            let [path] = self.channels.path.value(sin);
-            let [inside] = self.channels.inside.value(sin);
-            let absorbed = (-x * index.im * inside / index.re).exp();
-            let factor = weight * rate.abs() * spreading.max(0.0).sqrt() * absorbed;
-            integrand.push(impact, path, matrix.map(|m| m * factor));
+            let [impact] = self.channels.impact.value(sin);
+            let [mut path] = self.channels.path.value(sin);
+            let amplitude = match &smooth {
+                Some(smooth) if k <= smooth_count => {
+                    path -= self.outside(sin).iter().sum::<f64>();
+                    smooth.at(sin)
+                }
+                _ => self.amplitude(sin, index, x)?,
+            };
+            integrand.push(impact, path, amplitude.map(|m| m * weight));
         }
         integrand.fill_lanes();
         Some(integrand)
+    }
+
+    /// The ways of the waves outside, from their turning points to the first meeting and from the last.
+    fn outside(&self, sin: f64) -> [f64; 2] {
+        let way = |meeting: Option<&MeetingChannels<Chebyshev<1>>>| {
+            let Some(meeting) = meeting else { return 0.0 };
+            let ([square], [radius]) = (meeting.square.value(sin), meeting.radius.value(sin));
+            radius * Grazing::path_outside(square.max(0.0).sqrt().min(1.0))
+        };
+        let meetings = &self.channels.meetings;
+        [way(meetings.first()), way(meetings.last())]
+    }
+
+    /// S1 … S4 of the ray at a launch point, with the spreading of impacts and what is absorbed.
+    fn amplitude(&self, sin: f64, index: Complex64, x: f64) -> Option<[Complex64; 4]> {
+        let matrix = self.transfer(sin, index, x)?;
+        let [spreading] = self.channels.spreading.value(sin);
+        let [inside] = self.channels.inside.value(sin);
+        let (_, rate) = self.impact(sin);
+        let absorbed = (-x * index.im * inside / index.re).exp();
+        Some(matrix.map(|m| m * (rate.abs() * spreading.max(0.0).sqrt() * absorbed)))
+    }
+
+    /// The change of the launch point over which the surface's coefficients change: a wave zone where a meeting is
+    /// grazing, more the farther it is from that.
+    fn zone(&self, sin: f64, x: f64) -> f64 {
+        let zone = |meeting: &MeetingChannels<Chebyshev<1>>| {
+            let (square, slope) = at(&meeting.square, sin);
+            let size = (0.5 * x * meeting.radius.value(sin)[0]).powf(2.0 / 3.0);
+            (1.0 + 0.25 * (size * square).abs()) / (size * slope).abs()
+        };
+        self.channels.meetings.iter().map(zone).fold(f64::INFINITY, f64::min)
     }
 
     /// Launch point at which the first of entry and exit becomes grazing.
@@ -197,72 +238,9 @@ impl Rays {
     }
 }
 
-impl Channels<Chebyshev<1>> {
-    /// All at a launch point.
-    fn at(&self, sin: f64) -> Channels<f64> {
-        let at = |series: &Chebyshev<1>| series.value(sin)[0];
-        Channels {
-            impact: at(&self.impact),
-            path: at(&self.path),
-            spreading: at(&self.spreading),
-            inside: at(&self.inside),
-            meetings: self.meetings.iter().map(|meeting| meeting.at(sin)).collect(),
-            last_turn: at(&self.last_turn),
-        }
-    }
-}
-
-impl MeetingChannels<Chebyshev<1>> {
-    fn at(&self, sin: f64) -> MeetingChannels<f64> {
-        let at = |series: &Chebyshev<1>| series.value(sin)[0];
-        MeetingChannels { square: at(&self.square), radius: at(&self.radius), turn: at(&self.turn) }
-    }
-}
-
 fn at(series: &Chebyshev<1>, sin: f64) -> (f64, f64) {
     let ([value], [slope]) = series.at(sin);
     (value, slope)
-}
-
-/// What is known of one ray.
-fn row(curve: &DeflectionCurve, node: &Node, meetings: &[Meeting]) -> Option<Channels<f64>> {
-    let plane = curve.plane();
-    let (_, growing) = plane.frame(node.angle);
-    let across = plane.across();
-    let exit = &node.exit;
-    let impact = exit.reference.dot(growing);
-    let minor = plane.spread_across(exit, node.angle);
-    let path = exit.path + impact * node.angle + paths_outside(meetings)?;
-    let spreading = node.angle.sin().abs() / minor.abs();
-    let inside = path_inside(meetings)?;
-    let (meetings, last_turn) = turned_frames(meetings, across, across, exit.direction);
-    Some(Channels { impact, path, spreading, inside, meetings, last_turn })
-}
-
-/// The ways of the waves outside from their turning points to the first meeting and from the last.
-fn paths_outside(meetings: &[Meeting]) -> Option<f64> {
-    let outside = |m: &Meeting| {
-        m.radius * Grazing::path_outside(m.cos_squared_outside.max(0.0).sqrt().min(1.0))
-    };
-    Some(outside(meetings.first()?) + outside(meetings.last()?))
-}
-
-/// The optical path inside.
-fn path_inside(meetings: &[Meeting]) -> Option<f64> {
-    Some(meetings.last()?.path - meetings.first()?.path)
-}
-
-/// Unwrap the turns of frames, smooth along rows.
-fn unwrap_turns(rows: &mut [Channels<f64>]) {
-    let near = |turn: &mut f64, before: f64| *turn += TAU * ((before - *turn) / TAU).round();
-    for k in 1..rows.len() {
-        let (before, rest) = rows.split_at_mut(k);
-        let (before, row) = (&before[k - 1], &mut rest[0]);
-        for (meeting, before) in row.meetings.iter_mut().zip(&before.meetings) {
-            near(&mut meeting.turn, before.turn);
-        }
-        near(&mut row.last_turn, before.last_turn);
-    }
 }
 
 #[cfg(test)]
@@ -330,25 +308,5 @@ mod tests {
                 assert!(both > 0.0 || traced.s2.norm() < 1e-3, "{sin}");
             }
         });
-    }
-
-    #[test]
-    fn turns_are_unwrapped_along_rows() {
-        let row = |a: f64, last_turn: f64| Channels {
-            impact: 0.0,
-            path: 0.0,
-            spreading: 1.0,
-            inside: 1.0,
-            meetings: [a, 0.1]
-                .map(|turn| MeetingChannels { square: 1.0, radius: 1.0, turn })
-                .into(),
-            last_turn,
-        };
-        let mut rows = [row(3.1, -3.1), row(-3.1, 3.1), row(-3.0, 3.0)];
-        unwrap_turns(&mut rows);
-        let first = |k: usize| rows[k].meetings[0].turn;
-        assert!((first(1) - (TAU - 3.1)).abs() < 1e-15 && (first(2) - (TAU - 3.0)).abs() < 1e-15);
-        assert!((rows[2].last_turn - (3.0 - TAU)).abs() < 1e-15);
-        assert_eq!(rows[2].meetings[1].turn, 0.1);
     }
 }

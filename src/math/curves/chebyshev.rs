@@ -24,20 +24,19 @@ impl<const C: usize> Chebyshev<C> {
     /// Interpolate values given at [`points`].
     pub fn fit(values: &[[f64; C]], from: f64, to: f64) -> Self {
         let count = values.len();
-        let coefficients = (0..count)
-            .map(|n| {
-                let mut sum = [0.0; C];
-                for (k, value) in values.iter().enumerate() {
-                    // points ascend, so that x_k = cos(π - (k+½)π/count)
-                    let angle = PI - (k as f64 + 0.5) * PI / count as f64;
-                    let weight = (n as f64 * angle).cos() * if n == 0 { 1.0 } else { 2.0 };
-                    for c in 0..C {
-                        sum[c] += weight * value[c] / count as f64;
-                    }
+        let mut coefficients = vec![[0.0; C]; count];
+        for (k, value) in values.iter().enumerate() {
+            // points ascend, so that x_k = cos(π - (k+½)π/count)
+            let x = (PI - (k as f64 + 0.5) * PI / count as f64).cos();
+            // T_n(x) by recurrence, twice but for the first
+            let (mut before, mut here, mut twice) = (x, 1.0, 1.0);
+            for row in &mut coefficients {
+                for c in 0..C {
+                    row[c] += twice * here * value[c] / count as f64;
                 }
-                sum
-            })
-            .collect();
+                (before, here, twice) = (here, 2.0 * x * here - before, 2.0);
+            }
+        }
         Self { from, to, coefficients }
     }
 

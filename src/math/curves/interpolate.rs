@@ -4,7 +4,11 @@ use num_complex::Complex64;
 
 /// The polynomial through `(x, y)` points, at `x`.
 pub fn lagrange(points: &[(f64, f64)], x: f64) -> f64 {
-    lagrange_complex(points, Complex64::new(x, 0.0)).re
+    let term = |(i, (xi, yi)): (usize, &(f64, f64))| {
+        let others = points.iter().enumerate().filter(|(j, _)| *j != i);
+        others.fold(*yi, |product, (_, (xj, _))| product * (x - xj) / (xi - xj))
+    };
+    points.iter().enumerate().map(term).sum()
 }
 
 /// The polynomial through real points, at a complex argument.
