@@ -130,10 +130,16 @@ impl Trail {
     }
 
     /// Guesses of the azimuth at `α`, the best first: next to total reflection it runs like a square root, and lower
-    /// degrees do better.
+    /// degrees do better. Over missing nodes high degrees lead to other branches, on the far side of the axis.
     fn guesses(&self, alpha: f64) -> impl Iterator<Item = f64> {
-        let degrees = [Self::MOST, 2].into_iter().map(|most| self.last.len().min(most));
-        degrees.map(move |count| lagrange(&self.last[self.last.len() - count..], alpha))
+        let count = self.last.len();
+        let next = match self.last[..] {
+            [.., (a, _), (b, _)] => (alpha - b).abs() < 1.5 * (b - a).abs(),
+            _ => true,
+        };
+        let highest = next.then_some(Self::MOST);
+        let degrees = highest.into_iter().chain([2]).map(move |most| count.min(most));
+        degrees.map(move |used| lagrange(&self.last[count - used..], alpha))
     }
 }
 
@@ -206,6 +212,24 @@ mod tests {
     use super::*;
     use crate::shape::Shape;
     use crate::trace::Tracer;
+
+    /// A square root's azimuths are continued by a polynomial to the next node, along the last two over missing ones.
+    #[test]
+    fn trails_are_continued_along_a_line_over_missing_nodes() {
+        let mut trail = Trail { last: Vec::new() };
+        for k in 0..6 {
+            let alpha = 0.1 * f64::from(k);
+            trail.last.push((alpha, (0.51 - alpha).sqrt()));
+        }
+        trail.last.remove(0);
+        let line = |alpha: f64| {
+            trail.last[4].1 + (trail.last[4].1 - trail.last[3].1) * (alpha - 0.5) / 0.1
+        };
+        let next: Vec<f64> = trail.guesses(0.6).collect();
+        assert!(next.len() == 2 && (next[1] - line(0.6)).abs() < 1e-12 && next[0] < next[1] - 0.05);
+        let far: Vec<f64> = trail.guesses(0.9).collect();
+        assert!(far.len() == 1 && (far[0] - line(0.9)).abs() < 1e-12, "{far:?}");
+    }
 
     /// The stretches of a scan follow on one another and leave nothing out.
     #[test]
