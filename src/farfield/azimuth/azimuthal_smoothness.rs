@@ -6,7 +6,7 @@
 //! faster than there are planes. So every plane is compared with the polynomial through its
 //! neighbours.
 
-use crate::farfield::branch::knots::{CHANNELS, Kind, Knot, Segment, SingleKnot};
+use crate::farfield::branch::knots::{Kind, Knot, Segment, SingleKnot};
 
 /// Weights of the neighbours one, two and three steps away on either side, of the polynomial of fifth
 /// degree through them, half-way.
@@ -35,12 +35,10 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
     let (mut paths, mut waves, mut size) = (0.0f64, 0.0f64, 0.0f64);
     for j in 0..=last {
         for (i, knot) in planes[j][s].knots.iter().enumerate() {
-            let mut expected = Knot::default();
-            for (k, weight) in WEIGHTS.iter().enumerate() {
-                for neighbour in around(j, k + 1) {
-                    add(&mut expected, *weight, &planes[neighbour][s].knots[i]);
-                }
-            }
+            let beside = WEIGHTS.iter().enumerate().flat_map(|(k, weight)| {
+                around(j, k + 1).map(|neighbour| (*weight, &planes[neighbour][s].knots[i]))
+            });
+            let expected = Knot::weighted(beside);
             let (knot, expected) = (knot.single(), expected.single());
             let path = knot.path + knot.path_slope * (expected.angle - knot.angle);
             let strength = |knot: &SingleKnot| {
@@ -58,12 +56,6 @@ fn of_segment(planes: &[Vec<Segment>], s: usize, size_parameter: f64) -> f64 {
         }
     }
     if is_wave { (size_parameter * paths).max(waves) / size } else { size_parameter * paths }
-}
-
-fn add(sum: &mut Knot, weight: f64, knot: &Knot) {
-    for c in 0..CHANNELS {
-        sum.channels_mut()[c] += weight * knot.channels()[c];
-    }
 }
 
 #[cfg(test)]

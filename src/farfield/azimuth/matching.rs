@@ -5,7 +5,7 @@ use super::axis_waves::axis_waves;
 use super::cut_layout::{CutLayout, FoldLayout};
 use crate::farfield::branch::knots::{Kind, Knot, Segment};
 use crate::farfield::deflection::curve::DeflectionCurve;
-use crate::farfield::deflection::guide::OrderGuide;
+use crate::farfield::deflection::guide::{OrderGuide, PlaneGuide};
 use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane, axial_ray};
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_critical;
@@ -53,8 +53,14 @@ pub(crate) fn trace(
     let silhouette = tracer.shape().silhouette().tabulated();
     let plane = |phi: f64| ScatteringPlane::new(tracer, order, phi, centre);
     let guides = guide.map_or_else(Vec::new, |guide| guide.at(tracer.index().re));
-    let curve = |j: usize| {
-        DeflectionCurve::guided(plane(places[j]), &silhouette, layout.scanning(), guides.get(j))
+    let curve = |j: usize, guide: Option<&PlaneGuide>| {
+        DeflectionCurve::guided(plane(places[j]), &silhouette, layout.scanning(), guide)
+    };
+    let scanned = |j: usize, like: Option<&str>| {
+        let found = curve(j, guides.get(j));
+        let serves = |found: &DeflectionCurve| like.is_none_or(|like| found.signature() == like);
+        // what a guide does not lead to may be found by itself
+        if guides.is_empty() || found.as_ref().is_some_and(serves) { found } else { curve(j, None) }
     };
     // A few planes far apart tell soon whether all can correspond.
     let mut probes: Vec<usize> = [0.0, 0.25, 0.5, 0.75, 1.0]
@@ -62,7 +68,7 @@ pub(crate) fn trace(
         .to_vec();
     probes.dedup();
     let mut curves: Vec<Option<DeflectionCurve>> = places.iter().map(|_| None).collect();
-    let probed: Vec<_> = probes.par_iter().map(|&j| curve(j)).collect();
+    let probed: Vec<_> = probes.par_iter().map(|&j| scanned(j, None)).collect();
     for (&j, curve) in probes.iter().zip(probed) {
         curves[j] = curve;
     }
@@ -74,7 +80,7 @@ pub(crate) fn trace(
     }
     curves.par_iter_mut().enumerate().for_each(|(j, known)| {
         if !probes.contains(&j) {
-            *known = curve(j);
+            *known = scanned(j, Some(&signature));
         }
     });
     let curves: Vec<_> = curves.into_iter().map(|curve| curve.filter(alike)).collect();
@@ -266,31 +272,46 @@ fn avoid_total_reflection(
     changed
 }
 
-/// Fill planes that were not found from the nearest on both sides. `None` when too many or an
+/// Planes on either side that a missing one is filled from.
+const BESIDE: usize = 3;
+
+/// Fill planes that were not found by the polynomial through the nearest on both sides. `None` when too many or an
 /// outer one is missing.
-fn fill_missing(mut planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
-    let count = planes.len();
-    if planes.iter().filter(|m| m.is_none()).count() > most_missing(count) {
+fn fill_missing(planes: Vec<Option<Vec<Segment>>>) -> Option<Vec<Vec<Segment>>> {
+    let found: Vec<(usize, &Vec<Segment>)> =
+        planes.iter().enumerate().filter_map(|(k, plane)| Some((k, plane.as_ref()?))).collect();
+    if planes.len() - found.len() > most_missing(planes.len()) {
         return None;
     }
-    for k in 0..count {
-        if planes[k].is_some() {
-            continue;
-        }
-        let after = (k + 1..count).find(|&j| planes[j].is_some())?;
-        let before = k.checked_sub(1)?;
-        let share = 1.0 / (after - before) as f64;
-        let (a, b) = (planes[before].as_ref()?, planes[after].as_ref()?);
-        if a.iter().zip(b).any(|(a, b)| a.kind != b.kind) {
+    let filled = |k: usize| {
+        let after = found.partition_point(|&(j, _)| j < k);
+        if after == 0 || after == found.len() {
             return None;
         }
-        let between = |(a, b): (&Segment, &Segment)| {
-            let knot = |(a, b): (&Knot, &Knot)| a.towards(b, share);
-            Segment { kind: a.kind, knots: a.knots.iter().zip(&b.knots).map(knot).collect() }
+        let alike = |(a, b): (&Segment, &Segment)| a.kind == b.kind;
+        let near = [BESIDE, 1]
+            .map(|beside| &found[after.saturating_sub(beside)..(after + beside).min(found.len())])
+            .into_iter()
+            .find(|near| near.iter().all(|(_, plane)| plane.iter().zip(near[0].1).all(alike)))?;
+        let (_, first) = near[0];
+        let weight = |j: usize| {
+            let others = near.iter().filter(|(other, _)| *other != j);
+            let off = |from: usize, to: usize| from as f64 - to as f64;
+            others.map(|&(other, _)| off(k, other) / off(j, other)).product::<f64>()
         };
-        planes[k] = Some(a.iter().zip(b).map(between).collect());
-    }
-    planes.into_iter().collect()
+        let weights: Vec<f64> = near.iter().map(|&(j, _)| weight(j)).collect();
+        let knot = |s: usize, i: usize| {
+            Knot::weighted(
+                near.iter().zip(&weights).map(|((_, plane), w)| (*w, &plane[s].knots[i])),
+            )
+        };
+        let segment = |(s, like): (usize, &Segment)| Segment {
+            kind: like.kind,
+            knots: (0..like.knots.len()).map(|i| knot(s, i)).collect(),
+        };
+        Some(first.iter().enumerate().map(segment).collect())
+    };
+    (0..planes.len()).map(|k| planes[k].clone().or_else(|| filled(k))).collect()
 }
 
 #[cfg(test)]
@@ -300,6 +321,12 @@ mod tests {
     use crate::shape::Shape;
 
     const PLAIN: Kind = Kind::Plain { focal_lines: 2, from_axis: true };
+
+    /// A polynomial of the degree that three planes on either side hold.
+    fn value(k: usize) -> f64 {
+        let t = k as f64 / 10.0 - 0.7;
+        1.0 + t - 3.0 * t.powi(2) + 2.0 * t.powi(5)
+    }
 
     fn plane(value: f64) -> Option<Vec<Segment>> {
         let mut knot = Knot::default();
@@ -311,22 +338,26 @@ mod tests {
     #[test]
     fn missing_planes_are_filled_in_between() {
         let planes = |missing: &[usize]| {
-            let of = |k: usize| if missing.contains(&k) { None } else { plane(k as f64) };
+            let of = |k: usize| if missing.contains(&k) { None } else { plane(value(k)) };
             fill_missing((0..20).map(of).collect())
         };
         for missing in [vec![], vec![7], vec![7, 8], vec![3, 15]] {
             let filled = planes(&missing).unwrap();
             for (k, plane) in filled.iter().enumerate() {
-                assert!(
-                    (plane[0].knots[1].channels()[5] - k as f64).abs() < 1e-14,
-                    "{missing:?} {k}"
-                );
+                let off = plane[0].knots[1].channels()[5] - value(k);
+                assert!(off.abs() < 1e-12, "{missing:?} {k}: {off:e}");
             }
         }
         // too many, or none on one side
         assert!(planes(&[4, 9, 12]).is_none() && planes(&[0]).is_none() && planes(&[19]).is_none());
         let mut differing: Vec<_> = (0..20).map(|k| plane(f64::from(k))).collect();
         differing[5] = None;
+        differing[7].as_mut().unwrap()[0].kind = Kind::Wave;
+        let filled = fill_missing(differing.clone()).unwrap();
+        assert!(
+            (filled[5][0].knots[0].channels()[0] - 5.0).abs() < 1e-14,
+            "from the next two alone"
+        );
         differing[6].as_mut().unwrap()[0].kind = Kind::Wave;
         assert!(fill_missing(differing).is_none());
     }

@@ -137,10 +137,14 @@ impl Knot {
         self.0.iter().all(|value| value.is_finite())
     }
 
-    /// The knot a share of the way from this one to another.
+    /// The sum of knots times their weights.
     #[must_use]
-    pub fn towards(&self, other: &Self, share: f64) -> Self {
-        Self(std::array::from_fn(|c| self.0[c] + share * (other.0[c] - self.0[c])))
+    pub fn weighted<'k>(parts: impl Iterator<Item = (f64, &'k Self)>) -> Self {
+        let mut sum = Self::default();
+        for (weight, knot) in parts {
+            sum.0.iter_mut().zip(knot.0).for_each(|(sum, value)| *sum += weight * value);
+        }
+        sum
     }
 }
 
@@ -311,7 +315,8 @@ mod tests {
 
     #[test]
     fn half_way_is_the_mean() {
-        let middle = Knot::from(single(0.0)).towards(&single(1.0).into(), 0.5).single();
+        let ends = [Knot::from(single(0.0)), single(1.0).into()];
+        let middle = Knot::weighted(ends.iter().map(|end| (0.5, end))).single();
         assert_eq!(middle.angle, 0.5);
         assert_eq!(middle.path, 1.5);
         assert!(!Knot::from(single(f64::NAN)).is_finite());
