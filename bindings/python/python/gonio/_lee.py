@@ -8,7 +8,7 @@ from gonio import _gonio
 from gonio._datasets import xarray
 from gonio._numbers import numbers
 from gonio._progress import bar
-from gonio._scene import json_of
+from gonio._keys import json_of
 from gonio.particles import in_keys
 
 if TYPE_CHECKING:
