@@ -98,6 +98,41 @@ fn picture_of(wavelengths: &str, theta: (f64, f64), camera: &[&str]) -> assert_c
         .assert()
 }
 
+/// A background comes out as it is stated, where no light of the drops is added.
+#[test]
+fn a_background_is_as_stated() {
+    let (folder, path) = scene(
+        "[sky]\nbackground = [107, 114, 118]\nbrightness = 1e-9\n[camera]\nwidth = 32\nheight = 18\n\
+         [[drops]]\nradius_mm = 0.01\n",
+    );
+    let picture = folder.path().join("bow.png");
+    gonio().arg("render").arg(&path).arg("-o").arg(&picture).assert().success();
+    let file = std::io::BufReader::new(std::fs::File::open(&picture).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut rgb).unwrap();
+    assert!(rgb.chunks_exact(3).all(|pixel| pixel == [107, 114, 118]), "{:?}", &rgb[..3]);
+    // the picture tells what it is
+    let words = |name: &str| {
+        let chunks = &reader.info().utf8_text;
+        let chunk = chunks.iter().find(|chunk| chunk.keyword == name);
+        chunk.unwrap_or_else(|| panic!("{name}")).get_text().unwrap()
+    };
+    assert!(words("Software").starts_with("gonio "));
+    assert!(words("Comment").starts_with("gonio render ") && words("Scene").contains("[sky]"));
+}
+
+/// A table of a part of the angles draws that part, and says how much of the picture it is not.
+#[test]
+fn what_a_table_lacks_is_said() {
+    let visible = "{ from = 400, to = 700, count = 13 }";
+    picture_of(visible, (120.0, 150.0), &[]).success().stderr(
+        predicate::str::contains("has scattering angles that not all tables have (120 to 150°)")
+            .and(predicate::str::contains("only the background is drawn there")),
+    );
+    picture_of(visible, (60.0, 180.0), &[]).success().stderr(predicate::str::is_empty());
+}
+
 #[test]
 fn a_table_that_makes_no_picture_is_refused_clearly() {
     let few = "[500.0, 600.0]";

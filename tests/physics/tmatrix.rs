@@ -174,7 +174,10 @@ fn spheroids_of_another_program() {
                 curve[0].plane
             );
             if x < 30.0 {
-                assert!(most < 1.0 + 1e-4 && error < 1.3 * expected, "{most} {error:e} {expected:e}");
+                assert!(
+                    most < 1.0 + 1e-4 && error < 1.3 * expected,
+                    "{most} {error:e} {expected:e}"
+                );
             }
             assert!(error < 2e-3, "{x} {flatness}: {error:e}");
             curves += 1;

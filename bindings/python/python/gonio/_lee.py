@@ -63,9 +63,7 @@ def lee(
         The CIE's standard observer.
     fineness : float, optional
         Factor on the numbers of angles and wavelengths; 1 is meant for ΔE below 1.
-    threads : int, optional
-        Threads to compute with.
-    progress : bool, optional
+    threads, progress : int and bool, optional
         As for :func:`gonio.table`.
 
     Returns
