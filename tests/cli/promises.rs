@@ -204,7 +204,7 @@ fn as_much_is_said_as_is_asked() {
         "--size-parameter",
         "100",
         "--index",
-        "1.01",
+        "1.04",
         "--theta",
         "90",
     ];

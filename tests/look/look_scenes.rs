@@ -1,6 +1,6 @@
 //! The shipped scenes of rainbows, and what `gonio render` and `gonio lee` say to bad input.
 
-use crate::gonio;
+use crate::{decoded, gonio, pixels};
 use predicates::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,7 @@ fn a_raindrop_of_0_4_mm_looks_like_a_sphere() {
         let mut command = gonio();
         command.args(["render", &scene, "--width", "64", "--height", "36", "-o"]).arg(&png);
         command.assert().success();
-        std::fs::read(png).unwrap()
+        pixels(&png)
     };
     assert!(picture("raindrop") == picture("sphere"));
 }
@@ -107,19 +107,12 @@ fn a_background_is_as_stated() {
     );
     let picture = folder.path().join("bow.png");
     gonio().arg("render").arg(&path).arg("-o").arg(&picture).assert().success();
-    let file = std::io::BufReader::new(std::fs::File::open(&picture).unwrap());
-    let mut reader = png::Decoder::new(file).read_info().unwrap();
-    let mut rgb = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut rgb).unwrap();
+    let (words, rgb) = decoded(&std::fs::read(&picture).unwrap());
     assert!(rgb.chunks_exact(3).all(|pixel| pixel == [107, 114, 118]), "{:?}", &rgb[..3]);
     // the picture tells what it is
-    let words = |name: &str| {
-        let chunks = &reader.info().utf8_text;
-        let chunk = chunks.iter().find(|chunk| chunk.keyword == name);
-        chunk.unwrap_or_else(|| panic!("{name}")).get_text().unwrap()
-    };
-    assert!(words("Software").starts_with("gonio "));
-    assert!(words("Comment").starts_with("gonio render ") && words("Scene").contains("[sky]"));
+    let told = |name: &str| words.iter().find(|(keyword, _)| keyword == name).unwrap().1.clone();
+    assert!(told("Software").starts_with("gonio "));
+    assert!(told("Comment").starts_with("gonio render ") && told("Scene").contains("[sky]"));
 }
 
 /// A table of a part of the angles draws that part, and says how much of the picture it is not.
