@@ -211,8 +211,8 @@ fn as_much_is_said_as_is_asked() {
     let (code, usual) = gonio(folder.path(), &note);
     assert!(code == 0 && usual.contains("note: "), "{usual}");
     assert_eq!(gonio(folder.path(), &[&note[..], &["--quiet"]].concat()), (0, String::new()));
-    let (code, message) = gonio(folder.path(), &["-q", "scatter", "--theta", "200"]);
-    assert!(code == 2 && message.contains("200"), "{message}");
+    let (code, message) = gonio(folder.path(), &["-q", "scene", "--example", "none"]);
+    assert!(code == 2 && message.contains("--example none"), "{message}");
     let table = [
         "table",
         "-v",

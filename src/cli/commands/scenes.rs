@@ -91,7 +91,12 @@ fn keys_of_tables() -> Vec<Section> {
             continue;
         }
         let (section, key) = (heading.to_lowercase(), long.replace('-', "_"));
-        let words = flag.get_help().map(ToString::to_string).unwrap_or_default();
+        let mut words = flag.get_help().map(ToString::to_string).unwrap_or_default();
+        let values = flag.get_possible_values();
+        if !values.is_empty() {
+            let names: Vec<&str> = values.iter().map(|value| value.get_name()).collect();
+            words += &format!(": {}", names.join(" | "));
+        }
         let line = format!("# {:28}  # {words}", format!("{key} = …"));
         match sections.iter_mut().find(|(name, _)| *name == section) {
             Some((_, keys)) => keys.push((key, line)),
