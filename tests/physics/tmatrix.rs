@@ -311,6 +311,24 @@ fn stated_errors_of_large_bodies() {
     assert!(beyond(10.0) * 50 <= ratios.len() && beyond(30.0) == 0, "{ratios:?}");
 }
 
+/// The same at the upper end of what is served.
+#[test]
+#[ignore = "some minutes"]
+fn stated_errors_of_the_largest_bodies() {
+    let dim = Complex64::new(1.5, 0.02);
+    let spheroid = |ratio| Shape::spheroid(ratio, 0.0).unwrap();
+    let bodies = [
+        (100.0, spheroid(0.95), WATER),
+        (100.0, spheroid(0.9), dim),
+        (100.0, drop_of(1.0), WATER),
+        (150.0, spheroid(0.95), WATER),
+        (150.0, spheroid(1.05), dim),
+    ];
+    let ratios = stated_over_true(&bodies, &[1e-2, 1e-4]);
+    assert!(ratios.len() >= 5, "{ratios:?}");
+    assert!(ratios.iter().all(|ratio| (0.3..=10.0).contains(ratio)), "{ratios:?}");
+}
+
 /// Beyond its limits there is no number.
 #[test]
 fn beyond_the_limits_is_refused() {
