@@ -11,6 +11,9 @@ pub enum Third {
     Step(f64),
 }
 
+/// What a number stands for: one of the cases of [`Third`].
+type Kind = fn(f64) -> Third;
+
 /// A range as typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
@@ -38,9 +41,9 @@ impl Range {
     ///
     /// # Errors
     /// The word that is no finite number.
-    pub fn parse<'a>(words: [&'a str; 3], usual: fn(f64) -> Third) -> Result<Self, &'a str> {
+    pub fn parse(words: [&str; 3], usual: Kind) -> Result<Self, &str> {
         let [from, to, third] = words;
-        let kinds: [(&str, fn(f64) -> Third); 2] = [("n", Third::Count), ("s", Third::Step)];
+        let kinds: [(&str, Kind); 2] = [("n", Third::Count), ("s", Third::Step)];
         let lettered = kinds.into_iter().find_map(|(letter, kind)| {
             third.trim().strip_prefix(letter).map(|rest| number(rest).map(kind))
         });
