@@ -313,7 +313,7 @@ fn stated_errors_of_large_bodies() {
 
 /// The same at the upper end of what is served.
 #[test]
-#[ignore = "some minutes"]
+#[ignore = "half a minute"]
 fn stated_errors_of_the_largest_bodies() {
     let dim = Complex64::new(1.5, 0.02);
     let spheroid = |ratio| Shape::spheroid(ratio, 0.0).unwrap();
