@@ -32,13 +32,4 @@ numpydoc_show_class_members = False
 numpydoc_xref_param_type = False
 # parameters as in the signature, each with words; every part in its place
 numpydoc_validation_checks = {"GL07", "GL08", "PR01", "PR02", "PR03", "PR04", "PR10", "RT01", "SS01", "SS03"}
-numpydoc_validation_exclude = {
-    r"\.__init__$",
-    # what calls return is not made by users: its attributes are told
-    r"^gonio\.mie\.Efficiencies",
-    r"^gonio\.tmatrix\.(Amplitudes|RandomOrientation$)",
-    r"^gonio\.Material$",
-    r"^gonio\._accessor\.Look$",
-    # the parameters that all particles have are told once
-    r"^gonio\.particles\.(Sphere|Spheroid|Raindrop)$",
-}
+numpydoc_validation_exclude = {r"\.__init__$"}  # its parameters are told of the class

@@ -2,16 +2,18 @@
 //! live terminal output, progress bars and exit codes.
 
 mod args;
+mod command_line;
 mod commands;
 mod cpu_time;
 mod failure;
 mod interrupt;
 mod show;
+mod units;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, shell,
-    table, validate,
+    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, scenes,
+    shell, table, validate,
 };
 use failure::{Failure, Result};
 use std::process::ExitCode;
@@ -23,6 +25,12 @@ struct Cli {
     /// Threads to compute with (default: all cores)
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Say nothing but errors: no notes, no progress
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say each step, with the seconds since the start
+    #[arg(short, long, global = true)]
+    verbose: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -47,13 +55,20 @@ enum Command {
     Render(render::RenderArgs),
     Batch(batch::BatchArgs),
     Bench(bench::BenchArgs),
+    Scenes(scenes::ScenesArgs),
+    Scene(scenes::SceneArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
 }
 
 /// Parse the command line, run the command, map errors to exit codes.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => units::named(error, &Cli::command()).exit(),
+    };
+    show::verbosity::set(cli.quiet, cli.verbose);
+    show::notes::start();
     interrupt::install();
     match start_threads(cli.threads).and_then(|()| run(cli.command)) {
         Ok(()) => ExitCode::SUCCESS,
@@ -80,6 +95,8 @@ fn run(command: Command) -> Result<()> {
         Command::Render(args) => render::run(args),
         Command::Batch(args) => batch::run(args),
         Command::Bench(args) => bench::run(args),
+        Command::Scenes(args) => scenes::list(&args),
+        Command::Scene(args) => scenes::example(&args),
         Command::Completions(args) => shell::completions(&args, Cli::command()),
         Command::Man(args) => shell::man(&args, Cli::command()),
     }

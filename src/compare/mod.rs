@@ -44,6 +44,7 @@ mod bands;
 #[cfg(feature = "pictures")]
 mod charts;
 mod curve;
+mod differences;
 mod energy;
 mod maxima;
 #[cfg(feature = "pictures")]
@@ -138,6 +139,8 @@ pub struct TestReport {
     pub seconds: Option<f64>,
     /// The scene as TOML.
     pub scene: String,
+    /// What of its particles and their light is not as in the reference.
+    pub differences: Vec<String>,
     /// How many of them the tables share, and were compared.
     pub wavelengths: usize,
     /// Azimuths that both tables share.
@@ -214,6 +217,7 @@ fn measure_one(
         name: test.name.clone(),
         seconds: test.seconds,
         scene: test.table.header.scene_toml.clone(),
+        differences: differences::differences(&test.table, &reference.table),
         wavelengths: shared.wavelengths,
         azimuths: shared.azimuths,
         bands: shared.bands,

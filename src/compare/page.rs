@@ -90,6 +90,9 @@ fn section(i: usize, case: &Case, report: &CaseReport) -> Markup {
             p .note {
                 (test.wavelengths) " wavelength(s) and " (test.azimuths) " azimuth(s) compared."
             }
+            @if !test.differences.is_empty() {
+                p .bad { "Not of the same particles: " (test.differences.join("; ")) "." }
+            }
             (bands(&test.bands))
             (maxima(&test.maxima))
             @if !test.scene.is_empty() {

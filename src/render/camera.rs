@@ -59,15 +59,16 @@ impl FromStr for Lens {
     fn from_str(text: &str) -> Result<Self, RenderError> {
         match text {
             "rectilinear" => Ok(Lens::Rectilinear),
-            "equidistant" => Ok(Lens::Equidistant),
+            "equidistant" | "fisheye" => Ok(Lens::Equidistant),
             "equal-area" => Ok(Lens::EqualArea),
             "stereographic" => Ok(Lens::Stereographic),
             "orthographic" => Ok(Lens::Orthographic),
             _ => Err(RenderError::Invalid {
                 field: "camera.lens".into(),
                 value: format!("\"{text}\""),
-                accepted: "rectilinear, equidistant, equal-area, stereographic or orthographic"
-                    .into(),
+                accepted:
+                    "rectilinear, fisheye (equidistant), equal-area, stereographic or orthographic"
+                        .into(),
             }),
         }
     }

@@ -4,7 +4,8 @@
 //! across the antisolar direction, lit from the front. Light that comes from depth t has been
 //! dimmed by exp(−t/μ₀) on its way in and exp(−t/μ) on its way out (μ₀, μ: cosines to the curtain's
 //! normal), so its radiance over the sun's irradiance is
-//! `P · μ₀/(μ₀+μ) · (1 − exp(−τ(1/μ₀ + 1/μ)))`, and `exp(−τ/μ)` of the background shines through.
+//! `P · μ₀/(μ₀+μ) · (1 − exp(−τ(1/μ₀ + 1/μ)))`. The background is that which is seen beside the bow, through the rain: its
+//! colour comes out as it is stated, and the bow is added as light.
 //! Drops that fill the air all around (`RainShape::Around`) have μ = μ₀ = 1 everywhere.
 //! Light scattered more than once is left out.
 
@@ -45,7 +46,7 @@ pub struct Sky {
     pub rain: RainShape,
     /// Optical depth of the rain along a line of sight.
     pub optical_depth: f64,
-    /// Colour behind the rain, linear sRGB.
+    /// Colour of what is seen through the rain, beside the bow, linear sRGB.
     pub background: [f64; 3],
     /// Colour below the horizon, linear sRGB; absent: rain falls there too.
     pub ground: Option<[f64; 3]>,
@@ -97,12 +98,21 @@ impl Kind {
     }
 }
 
+/// A drawn sky, and what it lacks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// As the camera sees it.
+    pub picture: Picture,
+    /// Share of the rain seen whose scattering angles no table has: there is the background alone.
+    pub untold: f64,
+}
+
 /// Draw the sky.
 ///
 /// # Errors
 /// [`RenderError`] when tables lack colours, polarisation or the directions that the camera sees,
 /// belong to another sun, or when the camera sees no sky.
-pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Picture, RenderError> {
+pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Drawn, RenderError> {
     camera.validate()?;
     check(sky, drops)?;
     let mixture = Mixture::new(sky, drops)?;
@@ -147,7 +157,9 @@ pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Picture
     for (rgb, pixel) in picture.rgb.chunks_exact_mut(3).zip(&pixels) {
         rgb.copy_from_slice(&pixel.srgb(sky, exposure));
     }
-    Ok(picture)
+    let rain = pixels.iter().filter(|p| matches!(p, Pixel::Rain { .. })).count();
+    let untold = pixels.iter().filter(|p| p.is_untold()).count();
+    Ok(Drawn { picture, untold: untold as f64 / rain as f64 })
 }
 
 /// What one pixel sees.
@@ -159,22 +171,27 @@ enum Pixel {
     Rain {
         /// XYZ over the sun's irradiance, sr⁻¹; nothing where no table reaches.
         bow: Option<[f64; 3]>,
-        /// Share of the background that comes through.
-        clear: f64,
+        /// Whether the line of sight meets the rain.
+        met: bool,
         /// More than 90° from the sun.
         back: bool,
     },
 }
 
 impl Pixel {
+    /// Rain of whose light no table tells.
+    fn is_untold(&self) -> bool {
+        matches!(self, Pixel::Rain { bow: None, met: true, .. })
+    }
+
     fn srgb(&self, sky: &Sky, exposure: f64) -> [u8; 3] {
         let linear = match self {
             Pixel::Nothing => [0.0; 3],
             Pixel::Ground => sky.ground.unwrap_or([0.0; 3]),
             Pixel::HorizonLine => [0.5; 3],
-            Pixel::Rain { bow, clear, .. } => {
+            Pixel::Rain { bow, .. } => {
                 let bow = xyz_to_linear_srgb(bow.unwrap_or([0.0; 3]).map(|v| v * exposure));
-                std::array::from_fn(|c| bow[c] + clear * sky.background[c])
+                std::array::from_fn(|c| bow[c] + sky.background[c])
             }
         };
         fit_gamut(linear).map(|v| (255.0 * encode_srgb(v)).round() as u8)
@@ -199,7 +216,7 @@ fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -
         RainShape::Around => (1.0, 1.0),
     };
     if mu <= 1e-6 || mu0 <= 1e-6 {
-        return Pixel::Rain { bow: None, clear: 1.0, back: false };
+        return Pixel::Rain { bow: None, met: false, back: false };
     }
     let depth = sky.optical_depth;
     let single = mu0 / (mu0 + mu) * (1.0 - (-depth * (1.0 / mu0 + 1.0 / mu)).exp());
@@ -214,7 +231,7 @@ fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -
     let filter =
         sky.polariser.map(|angle| filter_angle(view, angle, theta, phi, (upper, side, light)));
     let bow = mixture.at(theta, phi, filter).map(|xyz| xyz.map(|v| v * single));
-    Pixel::Rain { bow, clear: (-depth / mu).exp(), back: along < 0.0 }
+    Pixel::Rain { bow, met: true, back: along < 0.0 }
 }
 
 /// Angle between the filter's axis and the parallel direction of the scattered light, with

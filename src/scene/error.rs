@@ -68,6 +68,10 @@ pub enum SceneError {
     Syntax { place: Box<Place>, message: String },
     #[error("{place}: unknown key `{key}`{}; known here: {known}", did_you_mean(suggestion))]
     UnknownKey { place: Box<Place>, key: String, suggestion: Option<String>, known: String },
+    #[error(
+        "{place}: this is the scene of a picture, which `gonio render` draws; that of a table has {sections}"
+    )]
+    OfPicture { place: Box<Place>, sections: String },
     #[error("{place} = {value}: {accepted}")]
     Invalid { place: Box<Place>, value: String, accepted: String },
     #[error("{place} is missing: {accepted}")]
@@ -129,6 +133,7 @@ impl SceneError {
             SceneError::Read { .. } => {}
             SceneError::Syntax { place, .. }
             | SceneError::UnknownKey { place, .. }
+            | SceneError::OfPicture { place, .. }
             | SceneError::Invalid { place, .. }
             | SceneError::Missing { place, .. }
             | SceneError::Medium { place, .. } => {

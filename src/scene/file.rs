@@ -149,9 +149,9 @@ section! {
     LightKeys, "Light" {
         /// Sun above the horizon
         sun_elevation_deg: f64 [value_name = "DEG", allow_negative_numbers = true]
-        /// Wavelengths in vacuum: FROM:TO:COUNT or A,B,C
+        /// Wavelengths in vacuum: FROM:TO:COUNT, FROM:TO:sSTEP or A,B,C
         wavelengths_nm: Grid [value_name = "NM", allow_hyphen_values = true]
-        /// Frequencies in place of wavelengths, GHz: FROM:TO:COUNT or A,B,C
+        /// Frequencies in place of wavelengths, GHz, as these
         frequencies_ghz: Grid [value_name = "GHZ", allow_hyphen_values = true,
             conflicts_with = "wavelengths_nm"]
         /// Full width at half maximum of the band that each wavelength stands for (spheres)
@@ -170,9 +170,9 @@ section! {
         forward_peak: Choice<ForwardPeak> [value_parser = word::<ForwardPeak>()]
         /// Keep so many bits of each value's mantissa, for a smaller file
         bit_round: u8 [value_name = "BITS"]
-        /// Scattering angles: FROM:TO:COUNT or A,B,C
+        /// Scattering angles: FROM:TO:COUNT, FROM:TO:sSTEP or A,B,C
         theta_deg: Grid [value_name = "DEG", allow_hyphen_values = true]
-        /// Azimuths: FROM:TO:COUNT or A,B,C
+        /// Azimuths: FROM:TO:COUNT, FROM:TO:sSTEP or A,B,C
         azimuth_deg: Grid [value_name = "DEG", allow_hyphen_values = true]
     }
 }

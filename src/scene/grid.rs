@@ -1,7 +1,9 @@
-//! Coordinates of an axis as they are written: a list, or `{ from, to, count }` with both ends in;
+//! Coordinates of an axis as they are written: a list, `{ from, to, count }` with both ends in, or
+//! `{ from, to, step }`;
 //! and the list of orders.
 
 use super::Orders;
+use super::range::{Range, Third};
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor, value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -31,10 +33,34 @@ pub enum Grid {
 struct RangeKeys {
     from: f64,
     to: f64,
-    count: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    count: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<f64>,
 }
 
 impl Grid {
+    /// Of a range as typed; one of steps ends at its last value.
+    fn of(range: Range) -> Result<Self, String> {
+        let Range { from, to, third } = range;
+        match third {
+            Third::Count(count) if count.fract() == 0.0 && count >= 0.0 => {
+                Ok(Grid::Range { from, to, count: count as u64 })
+            }
+            Third::Count(count) => Err(format!("\"{count}\" is not a whole number of points")),
+            Third::Step(step) if step > 0.0 && to > from => {
+                let steps = range.steps();
+                let end = from + steps * step;
+                // what rounding leaves to the end is none
+                let to = if to - end < 1e-6 * step { to } else { end };
+                Ok(Grid::Range { from, to, count: steps as u64 + 1 })
+            }
+            Third::Step(step) => Err(format!(
+                "step {step} from {from} to {to}: `from` below `to`, and a step above 0"
+            )),
+        }
+    }
+
     /// The coordinates, finite and at least one.
     ///
     /// # Errors
@@ -92,7 +118,7 @@ impl fmt::Display for Grid {
     }
 }
 
-/// As on the command line: `FROM:TO:COUNT` or `A,B,C`.
+/// As on the command line: `FROM:TO:COUNT`, `FROM:TO:sSTEP` or `A,B,C`.
 impl FromStr for Grid {
     type Err = String;
 
@@ -100,13 +126,13 @@ impl FromStr for Grid {
         let number = |part: &str| {
             part.trim().parse::<f64>().map_err(|_| format!("\"{part}\" is not a number"))
         };
-        if let [from, to, count] = text.split(':').collect::<Vec<_>>()[..] {
-            let whole = format!("\"{count}\" is not a whole number of points");
-            let count = count.trim().parse().map_err(|_| whole)?;
-            return Ok(Grid::Range { from: number(from)?, to: number(to)?, count });
+        if let Ok(words) = <[&str; 3]>::try_from(text.split(':').collect::<Vec<_>>()) {
+            let range = Range::parse(words, Third::Count)
+                .map_err(|word| format!("\"{word}\" is not a number"))?;
+            return Grid::of(range);
         }
         if text.contains(':') {
-            return Err("accepted: FROM:TO:COUNT, or a list A,B,C".into());
+            return Err("accepted: FROM:TO:COUNT, FROM:TO:sSTEP, or a list A,B,C".into());
         }
         text.split(',').map(number).collect::<Result<_, _>>().map(Grid::List)
     }
@@ -117,7 +143,8 @@ impl Serialize for Grid {
         match self {
             Grid::List(values) => values.serialize(serializer),
             Grid::Range { from, to, count } => {
-                RangeKeys { from: *from, to: *to, count: *count }.serialize(serializer)
+                let (from, to, count) = (*from, *to, Some(*count));
+                RangeKeys { from, to, count, step: None }.serialize(serializer)
             }
         }
     }
@@ -135,7 +162,9 @@ impl<'de> Visitor<'de> for GridVisitor {
     type Value = Grid;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a list of numbers or { from = …, to = …, count = … }")
+        f.write_str(
+            "a list of numbers, { from = …, to = …, count = … } or { from = …, to = …, step = … }",
+        )
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Grid, A::Error> {
@@ -143,8 +172,17 @@ impl<'de> Visitor<'de> for GridVisitor {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Grid, A::Error> {
-        let keys = RangeKeys::deserialize(value::MapAccessDeserializer::new(map))?;
-        Ok(Grid::Range { from: keys.from, to: keys.to, count: keys.count })
+        let RangeKeys { from, to, count, step } =
+            RangeKeys::deserialize(value::MapAccessDeserializer::new(map))?;
+        match (count, step) {
+            (Some(count), None) => Ok(Grid::Range { from, to, count }),
+            (None, Some(step)) => {
+                Grid::of(Range { from, to, third: Third::Step(step) }).map_err(A::Error::custom)
+            }
+            _ => Err(A::Error::custom(
+                "one of `count` and `step` is accepted beside `from` and `to`",
+            )),
+        }
     }
 
     fn visit_f64<E: serde::de::Error>(self, value: f64) -> Result<Grid, E> {

@@ -16,9 +16,12 @@ mod file;
 #[cfg(feature = "cli")]
 mod flags;
 mod grid;
+mod kind;
 mod modes;
 mod particle;
+mod range;
 mod read;
+mod shipped;
 mod size;
 mod sizes;
 #[cfg(test)]
@@ -33,10 +36,13 @@ pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::Grid;
+pub use kind::SceneKind;
 pub use modes::{Amount, Mode};
+pub use range::{Range, Third};
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
 pub(crate) use read::{line_at, read_limited};
+pub use shipped::{SHIPPED, Shipped};
 pub use size::TableSize;
 pub use sizes::SizeKeys;
 

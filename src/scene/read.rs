@@ -2,6 +2,7 @@
 
 use super::error::{Place, SceneError, nearest};
 use super::file::{KEYS, MODES, ModeKeys, SceneFile};
+use super::kind::SceneKind;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -50,6 +51,10 @@ impl SceneText {
             SceneError::Syntax { place, message }
         };
         let document = DeTable::parse(&text).map_err(syntax)?;
+        if SceneKind::of(&text) == Some(SceneKind::Picture) {
+            let place = Box::new(Place::File { file: name.into(), line: None, key: String::new() });
+            return Err(SceneError::OfPicture { place, sections: sections() });
+        }
         check_keys(name, &text, document.get_ref())?;
         let file = toml::from_str(&text).map_err(syntax)?;
         Ok(SceneText { name: name.into(), folder: PathBuf::new(), text, numbered: true, file })
@@ -130,7 +135,7 @@ fn check_keys(name: &str, text: &str, document: &DeTable) -> Result<(), SceneErr
                 let mut error = unknown(section.span(), section.get_ref(), vec![]);
                 if let Err(SceneError::UnknownKey { suggestion, known, .. }) = &mut error {
                     *suggestion = Some(format!("{home}.{}", section.get_ref()));
-                    *known = KEYS.map(|(name, _)| format!("[{name}]")).join(", ");
+                    *known = sections();
                 }
                 return error;
             }
@@ -144,6 +149,11 @@ fn check_keys(name: &str, text: &str, document: &DeTable) -> Result<(), SceneErr
         }
     }
     Ok(())
+}
+
+/// The sections that scenes have.
+fn sections() -> String {
+    KEYS.map(|(name, _)| format!("[{name}]")).join(", ")
 }
 
 /// The dotted key whose value covers a byte of the text.

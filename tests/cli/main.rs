@@ -11,6 +11,7 @@ mod hostile_input;
 mod layers;
 mod medium_cli;
 mod populations;
+mod promises;
 mod rays_contract;
 mod series_bad_input;
 mod tmatrix_contract;

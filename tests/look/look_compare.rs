@@ -125,3 +125,53 @@ fn fail_above_decides_the_exit_code() {
         assert!(page.exists(), "the report is written either way");
     }
 }
+
+/// Tables of different drops are compared, and that they are is said: on the page, in the numbers, and to who asked.
+#[test]
+fn tables_of_different_drops_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, radius) in [("one", "2"), ("other", "3")] {
+        let arguments = [
+            "table",
+            "--shape",
+            "sphere",
+            "--radius-um",
+            radius,
+            "--wavelengths-nm",
+            "500",
+            "--theta-deg",
+            "0:180:181",
+            "--azimuth-deg",
+            "0",
+            "--method",
+            "mie",
+            "--no-preview",
+            "-o",
+        ];
+        gonio().args(arguments).arg(format!("{name}.h5")).current_dir(&folder).assert().success();
+    }
+    let compare = |reference: &str| {
+        let arguments = [
+            "compare",
+            "--table",
+            "one.h5",
+            "--reference",
+            reference,
+            "-o",
+            "r.html",
+            "--json",
+            "r.json",
+        ];
+        let done = gonio().args(arguments).current_dir(&folder).assert().success();
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+        let report: Value = serde_json::from_str(&read("r.json")).unwrap();
+        let told = String::from_utf8(done.get_output().stderr.clone()).unwrap();
+        (told, read("r.html"), report[0]["tests"][0]["differences"].clone())
+    };
+    let differ = "particle.radius_um = 2.0 against 3.0";
+    let (told, page, numbers) = compare("other.h5");
+    assert!(told.contains("not of the reference's particles") && told.contains(differ), "{told}");
+    assert!(page.contains(differ) && numbers.as_array().unwrap().len() == 1, "{numbers}");
+    let (told, _, numbers) = compare("one.h5");
+    assert!(told.is_empty() && numbers.as_array().unwrap().is_empty(), "{told}");
+}

@@ -1,7 +1,7 @@
 //! `gonio lee` from outside: where raindrops stop being spheres nothing jumps, and media are named
 //! as in a scene.
 
-use crate::gonio;
+use crate::{gonio, pixels};
 use gonio::color::{
     Illuminant, Observer, delta_e_2000, illuminant_white, lab, srgb_to_xyz, to_srgb,
 };
@@ -79,7 +79,7 @@ fn media_are_named_as_in_a_scene() {
         let png = path.with_extension("png");
         std::fs::write(&path, scene(medium)).unwrap();
         gonio().arg("render").arg(&path).arg("-o").arg(&png).assert().success();
-        std::fs::read(png).unwrap()
+        pixels(&png)
     };
     let table = picture("table", "{ index = 1.333 }");
     assert!(table == picture("file", "{ file = \"n.csv\" }"));

@@ -41,7 +41,7 @@ fn previews_are_drawn_and_written_complete() {
     let picture = preview::picture(&round).unwrap();
     keep(&picture, "preview_sphere.png");
     let bytes = std::fs::read(&path).unwrap();
-    assert_eq!(bytes, picture.png().unwrap());
+    assert_eq!(bytes, picture.png(&[]).unwrap());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing left beside it");
     // The strip of colours of the bow.
     assert!(coloured(&picture, 150..1200, 720..850) > 0.3);
@@ -77,10 +77,7 @@ fn a_strip_seen_through_a_filter_is_dark_where_no_light_of_that_kind_goes() {
     let range = (0.0, std::f64::consts::PI);
     let line = |seen| {
         let file = strip::png(&small, 0.0, seen, range, (181, 1)).unwrap();
-        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
-        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-        reader.next_frame(&mut pixels).unwrap();
-        pixels
+        crate::decoded(&file).1
     };
     let (parallel, across) = (line(Polarisation::Parallel), line(Polarisation::Perpendicular));
     let blue = |pixels: &[u8], degree: usize| pixels[3 * degree + 2];

@@ -1,6 +1,6 @@
 //! The shipped scenes of rainbows, and what `gonio render` and `gonio lee` say to bad input.
 
-use crate::gonio;
+use crate::{decoded, gonio, pixels};
 use predicates::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,7 @@ fn a_raindrop_of_0_4_mm_looks_like_a_sphere() {
         let mut command = gonio();
         command.args(["render", &scene, "--width", "64", "--height", "36", "-o"]).arg(&png);
         command.assert().success();
-        std::fs::read(png).unwrap()
+        pixels(&png)
     };
     assert!(picture("raindrop") == picture("sphere"));
 }
@@ -96,6 +96,34 @@ fn picture_of(wavelengths: &str, theta: (f64, f64), camera: &[&str]) -> assert_c
         .arg("-o")
         .arg(folder.path().join("bow.png"))
         .assert()
+}
+
+/// A background comes out as it is stated, where no light of the drops is added.
+#[test]
+fn a_background_is_as_stated() {
+    let (folder, path) = scene(
+        "[sky]\nbackground = [107, 114, 118]\nbrightness = 1e-9\n[camera]\nwidth = 32\nheight = 18\n\
+         [[drops]]\nradius_mm = 0.01\n",
+    );
+    let picture = folder.path().join("bow.png");
+    gonio().arg("render").arg(&path).arg("-o").arg(&picture).assert().success();
+    let (words, rgb) = decoded(&std::fs::read(&picture).unwrap());
+    assert!(rgb.chunks_exact(3).all(|pixel| pixel == [107, 114, 118]), "{:?}", &rgb[..3]);
+    // the picture tells what it is
+    let told = |name: &str| words.iter().find(|(keyword, _)| keyword == name).unwrap().1.clone();
+    assert!(told("Software").starts_with("gonio "));
+    assert!(told("Comment").starts_with("gonio render ") && told("Scene").contains("[sky]"));
+}
+
+/// A table of a part of the angles draws that part, and says how much of the picture it is not.
+#[test]
+fn what_a_table_lacks_is_said() {
+    let visible = "{ from = 400, to = 700, count = 13 }";
+    picture_of(visible, (120.0, 150.0), &[]).success().stderr(
+        predicate::str::contains("has scattering angles that not all tables have (120 to 150°)")
+            .and(predicate::str::contains("only the background is drawn there")),
+    );
+    picture_of(visible, (60.0, 180.0), &[]).success().stderr(predicate::str::is_empty());
 }
 
 #[test]

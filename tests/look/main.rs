@@ -18,3 +18,18 @@ mod look_twinned;
 fn gonio() -> assert_cmd::Command {
     assert_cmd::Command::cargo_bin("gonio").unwrap()
 }
+
+/// The pixels of a PNG; what it tells of itself beside them differs from picture to picture.
+fn pixels(png: &std::path::Path) -> Vec<u8> {
+    decoded(&std::fs::read(png).unwrap()).1
+}
+
+/// Words and pixels of a PNG.
+fn decoded(bytes: &[u8]) -> (Vec<(String, String)>, Vec<u8>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    let words = &reader.info().utf8_text;
+    let words = words.iter().map(|chunk| (chunk.keyword.clone(), chunk.get_text().unwrap()));
+    (words.collect(), pixels)
+}

@@ -31,6 +31,18 @@ pub(super) struct Row {
     scattering_angle: f64,
     pub direction: (f64, f64),
     pub amplitude: AmplitudeMatrix,
+    /// Root of the sum of squared half units of the last digits printed: what rounding can have changed.
+    pub rounding: f64,
+}
+
+/// Half a unit of the last digit of a number as it is printed; what symmetry forbids is printed as a bare 0.
+fn half_unit(printed: &str) -> f64 {
+    if printed == "0" {
+        return 0.0;
+    }
+    let (digits, exponent) = printed.split_once('e').unwrap_or((printed, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    0.5 * 10f64.powi(exponent.parse::<i32>().unwrap() - decimals as i32)
 }
 
 /// Unit vectors along the radius, θ and φ of spherical coordinates.
@@ -94,6 +106,7 @@ pub(super) fn rows() -> Vec<Row> {
             scattering_angle: radians(4)?,
             direction: found.direction,
             amplitude: found.amplitude,
+            rounding: cells[7..15].iter().map(|cell| half_unit(cell).powi(2)).sum::<f64>().sqrt(),
         })
     };
     text.lines().filter(|line| !line.starts_with('#')).filter_map(row).collect()

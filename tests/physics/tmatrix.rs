@@ -141,8 +141,11 @@ fn flat_drops_are_fitted_on_the_surface() {
     assert!((q.q_ext - q.q_sca).abs() < 1e-4 * q.q_ext, "{q:?}");
 }
 
-/// Oblate spheroids of x = 20, 50 and 100 against Mishchenko's program, relative L2 of each curve of all four
-/// amplitudes; at x = 50 and 100 the program itself is the weaker.
+/// Oblate spheroids of x = 20, 50 and 100 against Mishchenko's program, printed to five digits, relative L2 of each
+/// curve of all four amplitudes. At x = 20 all that is left is its rounding: no direction is further off than half
+/// units of its last digits and 5e-8 of the largest amplitude, and a curve no further than roundings come to (a uniform
+/// one is 1/√3 of its half unit).
+/// At x = 50 and 100 the program itself is the weaker.
 #[test]
 fn spheroids_of_another_program() {
     let rows = rows();
@@ -155,16 +158,28 @@ fn spheroids_of_another_program() {
         {
             let scattered = Scattered::new(&t, curve[0].sun_elevation);
             let directions: Vec<(f64, f64)> = curve.iter().map(|row| row.direction).collect();
-            let (mut wrong, mut scale) = (0.0, 0.0);
+            let (mut wrong, mut scale, mut rounding, mut beyond) = (0.0, 0.0, 0.0, 0.0f64);
+            let largest = curve.iter().fold(0.0, |most, row| row.amplitude.s11().max(most));
             for (row, s) in curve.iter().zip(scattered.directions(&directions)) {
-                wrong += (s - row.amplitude).s11();
-                scale += row.amplitude.s11();
+                // s11 is half the sum of the four squares
+                let off = (2.0 * (s - row.amplitude).s11()).sqrt();
+                wrong += off * off;
+                scale += 2.0 * row.amplitude.s11();
+                rounding += row.rounding.powi(2);
+                beyond = beyond.max((off - row.rounding) / (2.0 * largest).sqrt());
             }
             let error = (wrong / scale).sqrt();
+            let expected = (rounding / 3.0 / scale).sqrt();
             let (x, flatness) = (curve[0].x, curve[0].flatness);
-            println!("x = {x}, flatness {flatness}, {}: {error:.1e}", curve[0].plane);
-            // what that program's own end of its series leaves: the same for any tolerance here
-            assert!(error < if x < 30.0 { 2e-5 } else { 2e-3 }, "{x} {flatness}: {error:e}");
+            println!(
+                "x = {x}, flatness {flatness}, {}: {error:.2e}, by rounding {expected:.2e}; beyond half units {beyond:.1e} of \
+                 the largest",
+                curve[0].plane
+            );
+            if x < 30.0 {
+                assert!(beyond < 5e-8 && error < expected, "{beyond:e} {error:e} {expected:e}");
+            }
+            assert!(error < 2e-3, "{x} {flatness}: {error:e}");
             curves += 1;
         }
     }
@@ -172,8 +187,8 @@ fn spheroids_of_another_program() {
 }
 
 /// An absorbing spheroid, backwards, of pytmatrix's test, in units in which the radius is 2 and the wavelength 6.5.
-/// That program ends its series at a criterion of 1e-3 and prints 0.0389338755 - 0.243467777i, 4e-5 off; its port
-/// rustmatrix 2.2.0 ends at 1e-6 (`ddelt`) with these digits.
+/// That program ends its series at a criterion (`ddelt`) of 1e-3 and prints 0.0389338755 - 0.243467777i, 4e-5 off. Its
+/// port rustmatrix 2.2.0 gives these digits at 1e-12; at 1e-8 and 1e-10 its own differ by 1e-9 of them, at 1e-6 by 4e-7.
 #[test]
 fn absorbing_spheroid_of_pytmatrix() {
     let shape = Shape::spheroid(0.6, 0.0).unwrap();
@@ -181,11 +196,12 @@ fn absorbing_spheroid_of_pytmatrix() {
     let t = TMatrix::new(&shape, 2.0 * k, Complex64::new(1.5, 0.5), 1e-9).unwrap();
     let s = Scattered::new(&t, 0.0).directions(&[(PI, FRAC_PI_2)])[0];
     let length = Complex64::I / k;
-    let vertical = Complex64::new(3.892782559e-2, -2.4347419599e-1);
-    let horizontal = Complex64::new(-8.386389691e-2, 3.1040932679e-1);
+    let vertical = Complex64::new(3.892791526858e-2, -2.434742148295e-1);
+    let horizontal = Complex64::new(-8.386388436984e-2, 3.104093227087e-1);
     for (found, known) in [(s.s1 * length, vertical), (s.s2 * length, horizontal)] {
-        let off = (found - known).norm().min((found + known).norm());
-        assert!(off < 1e-6 * known.norm(), "{found} {known}: {off:e}");
+        let off = (found - known).norm().min((found + known).norm()) / known.norm();
+        println!("absorbing: {off:.1e}");
+        assert!(off < 1e-9, "{found} {known}: {off:e}");
     }
     assert!(s.s3.norm().max(s.s4.norm()) < 1e-12);
 }
@@ -293,6 +309,24 @@ fn stated_errors_of_large_bodies() {
     let beyond = |limit: f64| ratios.iter().filter(|&&ratio| ratio > limit).count();
     assert!(ratios.len() > 90 && ratios.iter().all(|&ratio| ratio >= 0.3));
     assert!(beyond(10.0) * 50 <= ratios.len() && beyond(30.0) == 0, "{ratios:?}");
+}
+
+/// The same at the upper end of what is served.
+#[test]
+#[ignore = "half a minute"]
+fn stated_errors_of_the_largest_bodies() {
+    let dim = Complex64::new(1.5, 0.02);
+    let spheroid = |ratio| Shape::spheroid(ratio, 0.0).unwrap();
+    let bodies = [
+        (100.0, spheroid(0.95), WATER),
+        (100.0, spheroid(0.9), dim),
+        (100.0, drop_of(1.0), WATER),
+        (150.0, spheroid(0.95), WATER),
+        (150.0, spheroid(1.05), dim),
+    ];
+    let ratios = stated_over_true(&bodies, &[1e-2, 1e-4]);
+    assert!(ratios.len() >= 5, "{ratios:?}");
+    assert!(ratios.iter().all(|ratio| (0.3..=10.0).contains(ratio)), "{ratios:?}");
 }
 
 /// Beyond its limits there is no number.

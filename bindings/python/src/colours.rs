@@ -1,17 +1,13 @@
 //! Lee diagrams, and colours of spectra.
 
 use crate::errors::{invalid, raised};
-use crate::job::long;
+use crate::job::in_parts;
 use crate::media::spec;
 use gonio::color::{ColorWeights, to_srgb};
-use gonio::lee::{
-    Bodies, LeeError, PEAK, Polarisation, Raindrops, Request, column_exposures, columns, srgb,
-};
+use gonio::lee::{Bodies, PEAK, Polarisation, Raindrops, Request, column_exposures, columns, srgb};
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use std::path::Path;
-use std::sync::Mutex;
-use std::sync::mpsc::Sender;
 
 type Three<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
@@ -72,21 +68,9 @@ pub fn lee<'py>(
             return Err(invalid("shape", format!("{other:?}"), accepted));
         }
     };
-    let work = |done: &Sender<()>| -> Result<_, LeeError> {
-        let done = Mutex::new(done.clone());
-        columns(&request, &bodies, || {
-            if let Ok(done) = done.lock() {
-                // Where nobody listens any more the work is being stopped.
-                let _ = done.send(());
-            }
-        })
-    };
-    let mut count = 0usize;
-    let hear = |py: Python<'_>, ()| {
-        count += 1;
-        progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (count,)).map(|_| ()))
-    };
-    let diagram = long(py, threads, work, hear)?.map_err(|error| raised(&error))?;
+    let diagram =
+        in_parts(py, threads, progress.as_ref(), |done| columns(&request, &bodies, done))?
+            .map_err(|error| raised(&error))?;
     let seen = diagram.seen(polarisation);
     let colours = srgb(&seen, &column_exposures(&seen, PEAK));
     let shape = [radius_mm.len(), theta_deg.len(), 3];

@@ -4,6 +4,7 @@ use crate::errors::{invalid, raised};
 use gonio::cancel::{Cancel, run};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use std::sync::Mutex;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
@@ -76,4 +77,28 @@ pub fn long<M: Send, T: Send>(
             (None, Err(_)) => Err(PyRuntimeError::new_err("the computation broke off")),
         }
     })
+}
+
+/// [`long`] work in parts: it calls what it is given whenever a part is done, and `progress` hears how many are.
+pub fn in_parts<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    progress: Option<&Py<PyAny>>,
+    work: impl FnOnce(&(dyn Fn() + Sync)) -> T + Send,
+) -> PyResult<T> {
+    let work = |done: &Sender<()>| {
+        let done = Mutex::new(done.clone());
+        work(&|| {
+            if let Ok(done) = done.lock() {
+                // Where nobody listens any more the work is being stopped.
+                let _ = done.send(());
+            }
+        })
+    };
+    let mut count = 0usize;
+    let hear = |py: Python<'_>, ()| {
+        count += 1;
+        progress.map_or(Ok(()), |progress| progress.call1(py, (count,)).map(|_| ()))
+    };
+    long(py, threads, work, hear)
 }

@@ -1,10 +1,10 @@
 //! What a radar sees of rain.
 
 use crate::errors::{invalid, raised};
-use crate::job::long;
+use crate::job::in_parts;
 use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
 use gonio::radar::{
-    DropShape, DropSpectrum, Drops, Observation, ObservationError, RadarQuantities, Row, Water,
+    DropShape, DropSpectrum, Drops, Observation, ObservationError, RadarQuantities, Water,
     band as wavelength_of_band, number,
 };
 use gonio::scene::Named;
@@ -14,8 +14,6 @@ use numpy::IntoPyArray;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::Mutex;
-use std::sync::mpsc::Sender;
 
 /// Drops of one shape as `gonio.radar` and `gonio.tmatrix` name them; `axis_ratio` is a number or a law.
 pub fn drop_shape(
@@ -121,21 +119,8 @@ pub fn radar<'py>(
         dielectric_factor: asked("k_squared", k_squared)?,
         tolerance: asked("tolerance", tolerance)?,
     };
-    let work = |done: &Sender<()>| -> Result<Vec<Row>, ObservationError> {
-        let done = Mutex::new(done.clone());
-        observation.rows(|| {
-            if let Ok(done) = done.lock() {
-                // Where nobody listens any more the work is being stopped.
-                let _ = done.send(());
-            }
-        })
-    };
-    let mut count = 0usize;
-    let hear = |py: Python<'_>, ()| {
-        count += 1;
-        progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (count,)).map(|_| ()))
-    };
-    let rows = long(py, threads, work, hear)?.map_err(|error| raised(&error))?;
+    let rows = in_parts(py, threads, progress.as_ref(), |done| observation.rows(done))?
+        .map_err(|error| raised(&error))?;
     let found = PyDict::new(py);
     let metres = &observation.wavelengths;
     let ghz: Vec<f64> = metres.iter().map(|m| wavelength_of_ghz(1.0) / m).collect();

@@ -2,6 +2,7 @@
 
 pub mod medium;
 pub mod memory;
+pub mod output;
 pub mod particle;
 pub mod polarisation;
 pub mod ranges;

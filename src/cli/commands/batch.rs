@@ -2,10 +2,11 @@
 
 use crate::cli::args::memory::MemoryFlag;
 use crate::cli::failure::{Failure, Result};
+use crate::cli::show::progress;
 use clap::{Args, Subcommand};
 use gonio::batch::{BatchPlan, Event, PlannedTable, Selection, ShardStatus, Sweep};
 use gonio::fault::Blame;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -264,9 +265,7 @@ fn eprintln_unless_bar(bar: &ProgressBar, message: &str) {
 /// Done, rate and time left on stderr, if that is a terminal.
 fn progress_bar(tables: usize) -> ProgressBar {
     let template = "{bar:30} {pos}/{len} tables, {msg}, {per_sec}, {eta} left";
-    let style = ProgressStyle::with_template(template);
-    let bar = ProgressBar::new(tables as u64);
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let bar = progress::styled(tables, template);
     bar.set_message("0 failed");
     bar
 }

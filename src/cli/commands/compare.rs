@@ -1,5 +1,7 @@
 //! `gonio compare`: how far a result is from Lorenz–Mie, or one table from another.
 
+use crate::cli::args::output::Output;
+use crate::cli::command_line::command_line;
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::{notes, progress};
 use clap::Args;
@@ -37,6 +39,11 @@ pub struct CompareArgs {
 }
 
 pub fn run(args: CompareArgs) -> Result<()> {
+    for (flag, path) in [("--output", Some(&args.output)), ("--json", args.json.as_ref())] {
+        if let Some(path) = path {
+            Output { flag, path, kind: "a report", endings: &[] }.check()?;
+        }
+    }
     let cases = match (&args.table, &args.reference) {
         (Some(table), Some(reference)) => vec![Case {
             name: format!("{} against {}", table.display(), reference.display()),
@@ -47,10 +54,17 @@ pub fn run(args: CompareArgs) -> Result<()> {
         _ => against_mie(&args.case)?,
     };
     let reports = cases.iter().map(measure).collect::<Result<Vec<_>, _>>()?;
-    let command = std::env::args().collect::<Vec<_>>().join(" ");
-    write_complete(&args.output, page::html(&cases, &reports, &command).as_bytes())?;
+    for test in reports.iter().flat_map(|report| &report.tests) {
+        if !test.differences.is_empty() {
+            let differ = test.differences.join("; ");
+            notes::tell([format!("{}: not of the reference's particles: {differ}", test.name)]);
+        }
+    }
+    write_complete(&args.output, page::html(&cases, &reports, &command_line()).as_bytes())?;
+    notes::wrote(&args.output);
     if let Some(path) = &args.json {
         write_complete(path, serde_json::to_string_pretty(&reports)?.as_bytes())?;
+        notes::wrote(path);
     }
     let worst = worst(&reports);
     match args.fail_above {
@@ -72,6 +86,7 @@ fn against_mie(files: &[PathBuf]) -> Result<Vec<Case>> {
     let bar = progress::bar(runs.iter().map(SphereRuns::count).sum(), "runs");
     let cases = runs.iter().map(|runs| runs.compute(|| bar.inc(1))).collect::<Result<_, _>>();
     bar.finish_and_clear();
+    notes::step(|| "runs computed".into());
     Ok(cases?)
 }
 

@@ -1,11 +1,13 @@
 //! `gonio export`: tables for other programs.
 
+use crate::cli::args::output::Output;
 use crate::cli::args::polarisation::PolarisationFlag;
 use crate::cli::args::ranges::angle_span;
 use crate::cli::failure::{Failure, Result};
+use crate::cli::show::notes;
 use clap::{Args, ValueEnum};
 use gonio::export::average::{Averaged, average};
-use gonio::export::notes::{density_note, notes, too_few_moments};
+use gonio::export::notes::{density_note, notes as notes_on, too_few_moments};
 use gonio::export::size_grid::SizeGrid;
 use gonio::export::source::{ACCEPTED_DENSITY, Source};
 use gonio::export::{csv, eradiate, exr, libradtran, mitsuba, sasktran2, strip};
@@ -99,6 +101,7 @@ pub fn run(args: ExportArgs) -> Result<()> {
     if output.exists() && !args.overwrite {
         return Err(TableError::Exists { path: output }.into());
     }
+    Output { flag: "--output", path: &output, kind: "", endings: &[] }.check_folder()?;
     let many_sizes = matches!(args.to, Format::Eradiate | Format::Sasktran2 | Format::Libradtran);
     let mut source = Source::read(&args.file, many_sizes)?;
     if let Some(density) = args.density_kg_m3 {
@@ -110,7 +113,7 @@ pub fn run(args: ExportArgs) -> Result<()> {
     let table = &tables[0];
     let cap = args.cap_deg.to_radians();
     if let Some(note) = too_few_moments(&tables, moments).filter(|_| many_sizes) {
-        eprintln!("note: {note}");
+        notes::tell([note]);
     }
     let moments = usize::from(moments);
     note_on_tables(&args, &tables);
@@ -190,7 +193,6 @@ fn without_strangers(args: &ExportArgs) -> Result<()> {
 
 /// Say what the tables are worth, and what the format takes them for.
 fn note_on_tables(args: &ExportArgs, tables: &[PhaseTable]) {
-    let mut told: Vec<String> = Vec::new();
     for table in tables {
         let density = (args.to == Format::Libradtran).then(|| density_note(table)).flatten();
         let shape = (args.to == Format::Mitsuba && table.header.shape != "sphere").then(|| {
@@ -199,12 +201,7 @@ fn note_on_tables(args: &ExportArgs, tables: &[PhaseTable]) {
                 table.header.shape
             )
         });
-        for note in notes(table).into_iter().chain(density).chain(shape) {
-            if !told.contains(&note) {
-                eprintln!("note: {note}");
-                told.push(note);
-            }
-        }
+        notes::tell(notes_on(table).into_iter().chain(density).chain(shape));
     }
 }
 

@@ -12,6 +12,7 @@ pub mod radar;
 pub mod rays;
 pub mod render;
 pub mod scatter;
+pub mod scenes;
 pub mod shell;
 pub mod table;
 pub mod validate;

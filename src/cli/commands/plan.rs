@@ -3,6 +3,7 @@
 use crate::cli::args::scene_flags::SceneFlags;
 use crate::cli::cpu_time::CpuTime;
 use crate::cli::failure::Result;
+use crate::cli::show::progress;
 use clap::Args;
 use gonio::phase_table::Slab;
 use gonio::plan::{Engine, Plan, PlannedRange, Symmetry};
@@ -27,6 +28,7 @@ pub struct PlanArgs {
 
 pub fn run(args: PlanArgs) -> Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
+    let spinner = progress::spinner("trials");
     let plan = Plan::new(&scene)?;
     let azimuths = plan.table_azimuths(&scene.phi);
     let (computed, _) = plan.computed_azimuths(&azimuths);
@@ -34,6 +36,7 @@ pub fn run(args: PlanArgs) -> Result<()> {
     let cost = plan.cost(&scene, threads);
     let Expected { seconds, methods, sizes } = expected(&scene, &plan, &computed)?;
     let seconds = cost.writing_seconds + seconds;
+    spinner.finish_and_clear();
     let engine = format!("{:?}", plan.engine);
     if args.json {
         let ranges: Vec<serde_json::Value> = methods.iter().map(as_json).collect();

@@ -1,10 +1,13 @@
 //! `gonio render`: a picture of a rainbow.
 
+use crate::cli::args::output::Output;
+use crate::cli::command_line::command_line;
 use crate::cli::failure::Result;
-use crate::cli::show::notes;
+use crate::cli::show::{notes, progress};
 use clap::Args;
 use gonio::render::bow::{BowScene, DropKeys};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 /// Picture of a rainbow, from a scene file or from a table
 #[derive(Args)]
@@ -17,6 +20,9 @@ pub struct RenderArgs {
     /// PNG to write
     #[arg(short, long, value_name = "BOW.png")]
     output: PathBuf,
+    /// Replace a picture of the same name
+    #[arg(long)]
+    overwrite: bool,
     /// Table of the drops, in place of the scene's
     #[arg(long, value_name = "TABLE.h5")]
     table: Vec<PathBuf>,
@@ -29,7 +35,7 @@ pub struct RenderArgs {
     /// Field of view across the width
     #[arg(long, value_name = "DEG")]
     fov_deg: Option<f64>,
-    /// rectilinear, equidistant, equal-area, stereographic or orthographic
+    /// rectilinear, fisheye (equidistant), equal-area, stereographic or orthographic
     #[arg(long)]
     lens: Option<String>,
     /// Elevation of the camera's axis
@@ -50,6 +56,9 @@ pub struct RenderArgs {
 }
 
 pub fn run(args: RenderArgs) -> Result<()> {
+    let start = Instant::now();
+    let output = Output { flag: "--output", path: &args.output, kind: "a PNG", endings: &["png"] };
+    output.check_new(args.overwrite)?;
     let mut scene = match &args.scene {
         Some(path) => BowScene::load(path)?,
         None => BowScene::default(),
@@ -70,7 +79,17 @@ pub fn run(args: RenderArgs) -> Result<()> {
     scene.camera.lens = args.lens.clone().or(scene.camera.lens);
     scene.sun.illuminant = args.illuminant.clone().or(scene.sun.illuminant);
 
-    let picture = scene.draw(drop_folder, &|note| notes::tell([note]))?;
-    picture.write_png(&args.output)?;
+    let spinner = progress::spinner("drops and sky");
+    let picture = scene.draw(drop_folder, &|note| spinner.suspend(|| notes::tell([note])))?;
+    spinner.finish_and_clear();
+    notes::step(|| "drawn".into());
+    let mut about = vec![("Comment", command_line())];
+    if let Some(path) = &args.scene {
+        about.push(("Scene", std::fs::read_to_string(path)?));
+    }
+    let about: Vec<(&str, &str)> = about.iter().map(|(name, text)| (*name, &**text)).collect();
+    picture.write_png_about(&args.output, &about)?;
+    let (seconds, path) = (start.elapsed().as_secs_f64(), args.output.display());
+    println!("{path}: {} × {} pixels, {seconds:.1} s", picture.width, picture.height);
     Ok(())
 }

@@ -1,9 +1,11 @@
 //! `gonio table`: from a scene to a tabulated phase function.
 
 use crate::cli::args::memory::MemoryFlag;
+use crate::cli::args::output::Output;
 use crate::cli::args::scene_flags::SceneFlags;
+use crate::cli::command_line::command_line;
 use crate::cli::failure::{Failure, Result};
-use crate::cli::show::progress;
+use crate::cli::show::{notes, progress};
 use clap::Args;
 use gonio::hdf5::{TableWriter, WriteOptions};
 use gonio::phase_table::Slab;
@@ -57,10 +59,18 @@ struct Summary {
 pub fn run(args: TableArgs) -> Result<()> {
     let scene = args.flags.scene(args.scene.as_deref())?;
     let preview = preview_path(&args)?;
+    Output { flag: "--output", path: &args.output, kind: "HDF5", endings: &[] }.check()?;
     args.memory.check(&scene)?;
+    notes::step(|| {
+        let (wavelengths, theta, phi) =
+            (scene.wavelengths.len(), scene.theta.len(), scene.phi.len());
+        format!("{wavelengths} wavelengths × {theta} scattering angles × {phi} azimuths")
+    });
     let (summary, thinned) = tabulate(&scene, &args)?;
+    notes::wrote(&args.output);
     if let Some(path) = &preview {
         preview::write_png(&thinned.into_table(), path)?;
+        notes::wrote(path);
     }
     report(&scene, &args, preview.as_deref(), &summary)
 }
@@ -101,6 +111,10 @@ fn tabulate(scene: &Scene, args: &TableArgs) -> Result<(Summary, Thinned)> {
         summary.add(&slab);
         thinned.add(index, &slab);
         progress.inc(1);
+        notes::step(|| {
+            let (nm, error) = (slab.wavelength * 1e9, slab.error_estimate);
+            format!("{nm:.3} nm: error estimate {error:.1e}")
+        });
         Ok(())
     })?;
     progress.finish_and_clear();
@@ -128,12 +142,12 @@ fn report(
     summary: &Summary,
 ) -> Result<()> {
     if summary.missed > 0 {
-        eprintln!(
-            "note: the error asked for, {}, is not met at {} of {} wavelengths; the table says so",
+        notes::tell([format!(
+            "the error asked for, {}, is not met at {} of {} wavelengths; the table says so",
             scene.tolerance,
             summary.missed,
             scene.wavelengths.len()
-        );
+        )]);
     }
     let bytes = std::fs::metadata(&args.output)?.len();
     if args.json {
@@ -173,18 +187,4 @@ fn report(
         println!("energy that the rays lost count of: {residual:.1e} of what came in");
     }
     Ok(())
-}
-
-/// The command line as it could be typed again.
-fn command_line() -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+".contains(c);
-    let quoted = |word: String| {
-        if !word.is_empty() && word.chars().all(plain) {
-            word
-        } else {
-            format!("'{}'", word.replace('\'', "'\\''"))
-        }
-    };
-    let rest = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
-    std::iter::once("gonio".to_string()).chain(rest).collect::<Vec<_>>().join(" ")
 }

@@ -1,6 +1,7 @@
 //! `gonio validate`: check a table or a scene.
 
 use crate::cli::failure::{Failure, Result};
+use crate::cli::show::notes;
 use clap::Args;
 use gonio::hdf5::{SweepReader, TableError, TableReader, position_of};
 use gonio::scene::{Scene, SceneFile};
@@ -77,8 +78,8 @@ fn check_sweep(path: &Path) -> Result<usize> {
 /// A table is sound and still not what was asked for.
 fn note_on_tolerance(missed: usize, wavelengths: usize, asked: f64) {
     if missed > 0 {
-        eprintln!(
-            "note: the error asked for, {asked}, is not met at {missed} of {wavelengths} wavelengths"
-        );
+        notes::tell([format!(
+            "the error asked for, {asked}, is not met at {missed} of {wavelengths} wavelengths"
+        )]);
     }
 }

@@ -3,3 +3,4 @@
 pub mod notes;
 pub mod plot;
 pub mod progress;
+pub mod verbosity;

@@ -2,6 +2,7 @@
 //!
 //! A figure draws itself on any backend, and the ending of the file's name picks PNG or SVG.
 
+use super::notes;
 use crate::cli::failure::{Failure, Result};
 use gonio::render::ensure_font;
 use plotters::coord::Shift;
@@ -81,7 +82,9 @@ fn paint<F: Figure, B: DrawingBackend>(figure: &F, backend: B) -> Result<()> {
 /// Writes a file; it appears only when it is complete.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     gonio::pending_file::write_whole(path, bytes)
-        .map_err(|e| Failure::from(e).while_doing(format!("cannot write {}", path.display())))
+        .map_err(|e| Failure::from(e).while_doing(format!("cannot write {}", path.display())))?;
+    notes::wrote(path);
+    Ok(())
 }
 
 #[cfg(test)]

@@ -19,6 +19,12 @@ pub enum BowError {
     Read { path: PathBuf, source: std::io::Error },
     #[error("the scene of the picture cannot be read: {}: {source}", path.display())]
     Syntax { path: PathBuf, source: toml::de::Error },
+    #[error(
+        "{}: this is the scene of a table, which `gonio table` computes; that of a picture has [[drops]], [sun], [camera] \
+         …, and --table TABLE.h5 draws a finished table",
+        path.display()
+    )]
+    OfTable { path: PathBuf },
     /// Keys that are missing, contradict each other or have no such value.
     #[error("{0}")]
     Keys(String),
@@ -45,6 +51,7 @@ impl Blame for BowError {
         match self {
             BowError::Read { .. }
             | BowError::Syntax { .. }
+            | BowError::OfTable { .. }
             | BowError::Keys(_)
             | BowError::Color(_)
             | BowError::Medium(_)

@@ -2,6 +2,7 @@
 
 use super::drops::DropKeys;
 use super::error::BowError;
+use crate::scene::SceneKind;
 use serde::Deserialize;
 use std::path::Path;
 use std::str::FromStr;
@@ -77,7 +78,7 @@ pub struct RainKeys {
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SkyKeys {
-    /// sRGB, 0 to 255.
+    /// Of what is seen through the rain, beside the bow: sRGB, 0 to 255.
     pub background: Option<[u8; 3]>,
     /// Colour below the horizon, sRGB, 0 to 255; absent: rain falls there too.
     pub ground: Option<[u8; 3]>,
@@ -105,6 +106,9 @@ impl BowScene {
     pub fn load(path: &Path) -> Result<Self, BowError> {
         let text = std::fs::read_to_string(path)
             .map_err(|source| BowError::Read { path: path.into(), source })?;
+        if SceneKind::of(&text) == Some(SceneKind::Table) {
+            return Err(BowError::OfTable { path: path.into() });
+        }
         text.parse().map_err(|source| BowError::Syntax { path: path.into(), source })
     }
 }
@@ -114,5 +118,25 @@ impl FromStr for BowScene {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         toml::from_str(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What tells a picture's scene from a table's are its sections.
+    #[test]
+    fn sections_are_those_known() {
+        for name in SceneKind::PICTURE_SECTIONS {
+            let head = if name == "drops" { "[[drops]]".into() } else { format!("[{name}]") };
+            assert!(head.parse::<BowScene>().is_ok(), "{name}");
+        }
+        let message = "[none]".parse::<BowScene>().unwrap_err().to_string();
+        assert_eq!(
+            message.matches('`').count() / 2,
+            1 + SceneKind::PICTURE_SECTIONS.len(),
+            "{message}"
+        );
     }
 }

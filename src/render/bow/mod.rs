@@ -51,7 +51,9 @@ impl BowScene {
         let camera = self.camera(elevation)?;
         let drops: Vec<Drops<'_>> =
             tables.iter().map(|(table, number)| Drops { table, number: *number }).collect();
-        Ok(render(&camera, &sky, &drops)?)
+        let drawn = render(&camera, &sky, &drops)?;
+        note_on_reach(&tables, drawn.untold).into_iter().for_each(tell);
+        Ok(drawn.picture)
     }
 
     /// The camera, which looks at the top of the primary bow unless told otherwise.
@@ -114,6 +116,26 @@ fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) -> Option<Str
             _ => " and is not applied again",
         };
         format!("the sun's disc is in the table already{wish}")
+    })
+}
+
+/// Share of the rain without any light of its own above which it is said.
+const UNTOLD: f64 = 1e-3;
+
+/// Says that the camera sees scattering angles which the tables lack.
+fn note_on_reach(tables: &[(PhaseTable, f64)], untold: f64) -> Option<String> {
+    let ends = |end: fn(&[f64]) -> Option<&f64>| {
+        tables.iter().filter_map(move |(table, _)| end(&table.header.axes.theta).copied())
+    };
+    let from = ends(<[f64]>::first).fold(0.0, f64::max);
+    let to = ends(<[f64]>::last).fold(f64::INFINITY, f64::min);
+    let [from, to] = [from, to].map(|angle| (angle.to_degrees() * 100.0).round() / 100.0);
+    (untold > UNTOLD).then(|| {
+        format!(
+            "{:.1} % of the rain that the camera sees has scattering angles that not all tables have \
+             ({from} to {to}°): only the background is drawn there",
+            100.0 * untold
+        )
     })
 }
 

@@ -132,19 +132,27 @@ impl ColorDiagram<'_> {
         low: f64,
         high: f64,
     ) -> Result<(), RenderError> {
+        let label = |area: &DrawingArea<_, Shift>, x: i32, tick: f64| -> Result<(), RenderError> {
+            let centred = Pos::new(HPos::Center, VPos::Top);
+            let style = (FONT, 15).into_font().color(&BLACK).pos(centred);
+            let bottom = rows.end - HEAD;
+            area.draw(&PathElement::new(vec![(x, bottom), (x, bottom + 6)], BLACK))?;
+            area.draw(&Text::new(trimmed(tick), (x, bottom + 8), style))?;
+            Ok(())
+        };
+        if let [radius] = self.radii {
+            // one column has no axis
+            return label(area, (columns.start + columns.end) / 2, *radius);
+        }
         let scale = |r: f64| if self.logarithmic { r.ln() } else { r };
         let ticks = match self.logarithmic {
             true => ticks::logarithmic(low, high),
             false => ticks::linear(low, high),
         };
-        let bottom = rows.end - HEAD;
-        let centred = Pos::new(HPos::Center, VPos::Top);
-        let style = (FONT, 15).into_font().color(&BLACK).pos(centred);
         for tick in ticks {
             let share = (scale(tick) - scale(low)) / (scale(high) - scale(low));
             let x = columns.start + (share * f64::from(columns.end - columns.start)).round() as i32;
-            area.draw(&PathElement::new(vec![(x, bottom), (x, bottom + 6)], BLACK))?;
-            area.draw(&Text::new(trimmed(tick), (x, bottom + 8), style.clone()))?;
+            label(area, x, tick)?;
         }
         Ok(())
     }

@@ -18,6 +18,11 @@ __all__ = ["Look"]
 class Look:
     """Views of a table of :func:`gonio.table`.
 
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        The table.
+
     Examples
     --------
     >>> import gonio

@@ -8,7 +8,7 @@ from gonio import _gonio
 from gonio._datasets import xarray
 from gonio._numbers import numbers
 from gonio._progress import bar
-from gonio._scene import json_of
+from gonio._keys import json_of
 from gonio.particles import in_keys
 
 if TYPE_CHECKING:
@@ -63,9 +63,7 @@ def lee(
         The CIE's standard observer.
     fineness : float, optional
         Factor on the numbers of angles and wavelengths; 1 is meant for ΔE below 1.
-    threads : int, optional
-        Threads to compute with.
-    progress : bool, optional
+    threads, progress : int and bool, optional
         As for :func:`gonio.table`.
 
     Returns

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gonio import _gonio
-from gonio._scene import json_of, tell
+from gonio._keys import json_of, tell
 from gonio.particles import in_keys
 
 if TYPE_CHECKING:
@@ -18,6 +18,11 @@ __all__ = ["Material", "material", "media"]
 
 class Material:
     """A material; made by :func:`gonio.material`.
+
+    Parameters
+    ----------
+    inner : object
+        The engine's medium.
 
     Attributes
     ----------

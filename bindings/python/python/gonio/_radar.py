@@ -98,9 +98,7 @@ def radar(
         \\|K\\|² that defines reflectivities.
     tolerance : float, optional
         Relative error asked of amplitudes.
-    threads : int, optional
-        Threads to compute with.
-    progress : bool, optional
+    threads, progress : int and bool, optional
         As for :func:`gonio.table`.
 
     Returns

@@ -23,7 +23,7 @@ __all__ = ["Efficiencies", "amplitudes", "efficiencies", "legendre"]
 class Efficiencies(NamedTuple):
     """Cross-sections over πa², and the asymmetry, of spheres.
 
-    Attributes
+    Parameters
     ----------
     q_ext, q_sca, q_abs : float or ndarray
         Extinction, scattering, absorption; the first is the sum of the others.

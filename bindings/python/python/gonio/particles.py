@@ -9,11 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, fields
+from inspect import cleandoc
 from typing import Any, ClassVar, Literal
+
+from gonio._keys import checked
 
 __all__ = ["Particle", "Raindrop", "Sphere", "Spheroid"]
 
 Medium = str | complex | Mapping[str, Any]
+
+#: Where a docstring begins to tell of parameters.
+PARAMETERS = "Parameters\n----------\n"
 
 
 @dataclass(frozen=True)
@@ -54,13 +60,18 @@ class Particle:
 
     shape: ClassVar[str] = ""
 
+    def __init_subclass__(cls) -> None:
+        """Tell of every particle also the parameters that all have."""
+        if cls.__doc__ and Particle.__doc__:
+            common = cleandoc(Particle.__doc__).partition(PARAMETERS)[2].partition("\n\n")[0]
+            before, heading, own = cleandoc(cls.__doc__).partition(PARAMETERS)
+            cls.__doc__ = f"{before}{heading}{common}\n{own}"
+
     def __post_init__(self) -> None:
         if not self.shape:
             raise TypeError("Particle is what Sphere, Spheroid and Raindrop have in common: make one of these")
-        from gonio._scene import scene_of
-
         # one wavelength inside all data of the library, where the medium allows: said with the light otherwise
-        scene_of(self, {"table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
+        checked({"particle": self.keys(), "table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
 
     def keys(self) -> dict[str, Any]:
         """The keys of the section ``[particle]``.

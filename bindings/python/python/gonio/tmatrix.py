@@ -22,9 +22,10 @@ __all__ = ["Amplitudes", "RandomOrientation", "TMatrix"]
 class Amplitudes(NamedTuple):
     """The amplitude matrix: E∥ = s2 E∥₀ + s3 E⊥₀ and E⊥ = s4 E∥₀ + s1 E⊥₀ (Bohren & Huffman 1983, eq. 3.12).
 
-    Attributes
+    Parameters
     ----------
     s1, s2, s3, s4 : ndarray of complex128
+        Of the shape that the angles broadcast to.
     """
 
     s1: NDArray[np.complex128]
@@ -203,6 +204,11 @@ class TMatrix:
 
 class RandomOrientation:
     """The mean over all orientations; made by :meth:`TMatrix.random`.
+
+    Parameters
+    ----------
+    inner : object
+        The engine's mean.
 
     Attributes
     ----------

@@ -2,8 +2,9 @@
 
 mod figure;
 
+use crate::cli::args::output::Output;
 use crate::cli::failure::{Failure, Result};
-use crate::cli::show::plot;
+use crate::cli::show::{plot, progress};
 use clap::Args;
 use figure::BenchFigure;
 use gonio::compare::speed::{Point, SpeedCase, Trials, measured};
@@ -39,6 +40,12 @@ pub struct BenchArgs {
 }
 
 pub fn run(args: BenchArgs) -> Result<()> {
+    if let Some(path) = &args.output {
+        Output { flag: "--output", path, kind: "a plot", endings: &["png", "svg"] }.check()?;
+    }
+    if let Some(path) = &args.csv {
+        Output { flag: "--csv", path, kind: "CSV", endings: &[] }.check()?;
+    }
     for &tolerance in &args.tolerances {
         if !(tolerance > 0.0 && tolerance < 1.0) {
             let message = format!("--tolerances {tolerance}: numbers between 0 and 1 are accepted");
@@ -48,7 +55,9 @@ pub fn run(args: BenchArgs) -> Result<()> {
     let cases = SpeedCase::all()?;
     let BenchArgs { rays_across, tolerances, repeat, .. } = &args;
     let (rays_across, tolerances) = (rays_across.clone(), tolerances.clone());
+    let spinner = progress::spinner("runs");
     let points = measured(&cases, &Trials { rays_across, tolerances, repeat: *repeat });
+    spinner.finish_and_clear();
     if let Some(path) = &args.csv {
         plot::write_whole(path, csv(&points).as_bytes())?;
     }

@@ -14,19 +14,19 @@ pub struct LeeArgs {
     /// Numbers to write (HDF5)
     #[arg(long, value_name = "LEE.h5")]
     pub(super) data: Option<PathBuf>,
-    /// Replace a data file of the same name
+    /// Replace files of the same names
     #[arg(long)]
     pub(super) overwrite: bool,
     /// Spheres by Lorenz–Mie, raindrops by rays
     #[arg(long, value_enum, default_value = "sphere")]
     pub(super) shape: LeeShape,
-    /// Radii FROM:TO:COUNT, log-spaced
+    /// Radii FROM:TO:COUNT, log-spaced, or FROM:TO:sSTEP, evenly
     #[arg(long, value_name = "MM", default_value = "0.01:1:400")]
     pub(super) radius_mm: String,
     /// Radii evenly spaced
     #[arg(long)]
     pub(super) linear: bool,
-    /// Scattering angles FROM:TO:STEP
+    /// Scattering angles FROM:TO:STEP or FROM:TO:nCOUNT
     #[arg(long, value_name = "DEG", default_value = "120:150:0.075")]
     pub(super) theta: String,
     /// Sun above the horizon (raindrops)

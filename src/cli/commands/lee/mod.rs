@@ -5,7 +5,9 @@ mod picture;
 
 pub use args::LeeArgs;
 
+use crate::cli::args::output::Output;
 use crate::cli::args::ranges;
+use crate::cli::command_line::command_line;
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::{notes, progress};
 use args::LeeShape;
@@ -19,9 +21,11 @@ pub fn run(args: LeeArgs) -> Result<()> {
     if args.output.is_none() && args.data.is_none() && !args.json {
         return Err(usage("nothing to do: give -o LEE.png, --data LEE.h5 or --json"));
     }
-    if let Some(path) = args.data.as_ref().filter(|path| path.exists() && !args.overwrite) {
-        let message = "the file exists; choose another name, or --overwrite";
-        return Err(usage(format!("--data = {}: {message}", path.display())));
+    let picture = (&args.output, "--output", "a PNG", &["png"][..]);
+    for (path, flag, kind, endings) in [picture, (&args.data, "--data", "HDF5", &[])] {
+        if let Some(path) = path {
+            Output { flag, path, kind, endings }.check_new(args.overwrite)?;
+        }
     }
     let request = request(&args)?;
     let start = Instant::now();
@@ -29,17 +33,20 @@ pub fn run(args: LeeArgs) -> Result<()> {
     let bar = progress::bar(request.radii.len(), "radii");
     let diagram = columns(&request, &bodies, || bar.inc(1))?;
     bar.finish_and_clear();
+    notes::step(|| format!("{} radii computed", request.radii.len()));
     let seconds = start.elapsed().as_secs_f64();
     let seen = diagram.seen(args.polarisation.into());
     let exposure = column_exposures(&seen, PEAK);
     if let Some(path) = &args.output {
         picture::draw(&args, &request, &seen, &exposure, path)?;
+        notes::wrote(path);
     }
     if let Some(path) = &args.data {
-        let command_line = &std::env::args().collect::<Vec<_>>().join(" ");
+        let command_line = &command_line();
         let (illuminant, observer) = (&*args.illuminant, &*args.observer);
         let about = About { command_line, illuminant, observer };
         save(&diagram, about, path, args.overwrite)?;
+        notes::wrote(path);
     }
     if args.json {
         print_json(&diagram, &srgb(&seen, &exposure), seconds)?;
@@ -66,7 +73,7 @@ fn request(args: &LeeArgs) -> Result<Request> {
     let medium = MediumSpec::parse(&args.medium)?.resolve(Path::new("."))?;
     notes::tell(medium.notes());
     Ok(Request {
-        radii: ranges::radii(&args.radius_mm, args.linear)?,
+        radii: ranges::radii(&args.radius_mm, args.linear)?.metres,
         theta: ranges::diagram_angles(&args.theta)?,
         medium,
         sun_disc: !args.no_sun_disc,

@@ -2,6 +2,8 @@
 
 use super::args::{LeeArgs, LeeShape};
 use crate::cli::args::polarisation::PolarisationFlag;
+use crate::cli::args::ranges::radii;
+use crate::cli::command_line::command_line;
 use crate::cli::failure::Result;
 use gonio::lee::{HIGHEST_ORDER, Request};
 use gonio::medium::Medium;
@@ -41,7 +43,7 @@ pub fn draw(
     } else {
         String::new()
     };
-    let radii: Vec<f64> = request.radii.iter().map(|r| r * 1e3).collect();
+    let millimetres: Vec<f64> = request.radii.iter().map(|r| r * 1e3).collect();
     let theta: Vec<f64> = request.theta.iter().map(|t| t.to_degrees()).collect();
     let diagram = ColorDiagram {
         title: &format!("Lee diagram: {} ({shape})", args.medium),
@@ -50,14 +52,19 @@ pub fn draw(
              luminance",
             args.illuminant, args.observer
         ),
-        radii: &radii,
-        logarithmic: !args.linear,
+        radii: &millimetres,
+        logarithmic: radii(&args.radius_mm, args.linear)?.logarithmic,
         theta: &theta,
         xyz: seen,
         exposure,
-        marks: &descartes(&request.medium),
+        // a flattened drop's bows lie elsewhere for each radius
+        marks: &match args.shape {
+            LeeShape::Sphere => descartes(&request.medium),
+            LeeShape::Raindrop => Vec::new(),
+        },
     };
-    diagram.picture()?.write_png(path)?;
+    let about = [("Title", "Lee diagram"), ("Comment", &command_line())];
+    diagram.picture()?.write_png_about(path, &about)?;
     Ok(())
 }
 

@@ -17,7 +17,8 @@ pub struct MaterialArgs {
     /// List the library
     #[arg(long, conflicts_with_all = ["from_abbe", "kramers_kronig"])]
     pub(super) list: bool,
-    /// Wavelengths in vacuum: values and FROM:TO:STEP ranges, separated by commas
+    /// Wavelengths in vacuum: values and FROM:TO:STEP or FROM:TO:nCOUNT ranges, separated by
+    /// commas
     #[arg(long, value_name = "NM", value_parser = wavelengths, requires = "name",
           conflicts_with_all = ["list", "from_abbe", "kramers_kronig"])]
     pub(super) wavelength_nm: Option<Wavelengths>,

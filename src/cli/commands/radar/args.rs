@@ -32,7 +32,7 @@ pub struct RadarArgs {
     /// Bands S (2.8 GHz), C (5.6), X (9.4), Ku (13.6), Ka (35.5), W (94), separated by commas
     #[arg(long, value_name = "LIST")]
     pub(super) band: Option<String>,
-    /// Frequencies in place of bands: values and FROM:TO:COUNT ranges, separated by commas
+    /// Frequencies in place of bands: values and FROM:TO:COUNT or FROM:TO:sSTEP ranges, separated by commas
     #[arg(long, value_name = "GHZ", conflicts_with = "band")]
     pub(super) frequency_ghz: Option<String>,
     /// Wavelengths in place of bands
@@ -47,7 +47,7 @@ pub struct RadarArgs {
     /// Index n+k in place of water
     #[arg(long, value_parser = parse_index, allow_hyphen_values = true, conflicts_with_all = ["temperature_c", "water"])]
     pub(super) index: Option<Index>,
-    /// Diameters of equal volume: values and FROM:TO:COUNT ranges, separated by commas; each by itself
+    /// Diameters of equal volume: values and FROM:TO:COUNT or FROM:TO:sSTEP ranges, separated by commas; each by itself
     #[arg(long, value_name = "MM")]
     pub(super) diameter_mm: Option<String>,
     /// Number of drops of each diameter (default: 1)

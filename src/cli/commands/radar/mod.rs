@@ -3,10 +3,11 @@
 mod args;
 mod report;
 
+use crate::cli::args::output::Output;
 use crate::cli::args::particle::Index;
 use crate::cli::args::ranges::{positive_list, positive_range};
 use crate::cli::failure::{Failure, Result};
-use crate::cli::show::plot;
+use crate::cli::show::{plot, progress};
 pub use args::RadarArgs;
 use args::{RadarShape, WaterModel};
 use gonio::medium::{MicrowaveWater, wavelength_of_ghz};
@@ -16,6 +17,9 @@ use gonio::shape::RaindropModel;
 use std::time::Instant;
 
 pub fn run(args: RadarArgs) -> Result<()> {
+    if let Some(path) = &args.output {
+        Output { flag: "--output", path, kind: "", endings: &[] }.check()?;
+    }
     let wavelengths = wavelengths(&args)?;
     let water = water(&args)?;
     let shape = shape(&args)?;
@@ -30,7 +34,9 @@ pub fn run(args: RadarArgs) -> Result<()> {
         tolerance: number("tolerance", args.tolerance)?,
     };
     let start = Instant::now();
-    let rows = asked.rows(|| ())?;
+    let bar = progress::bar(asked.count(), "rows");
+    let rows = asked.rows(|| bar.inc(1))?;
+    bar.finish_and_clear();
     let seconds = start.elapsed().as_secs_f64();
     let text =
         if args.json { report::as_json(&args, &rows, seconds) } else { report::as_csv(&rows) };

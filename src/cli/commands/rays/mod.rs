@@ -3,6 +3,7 @@
 mod radial;
 
 use crate::cli::args::medium::MediumFlags;
+use crate::cli::args::output::Output;
 use crate::cli::args::particle::{Index, ShapeFlags, ShapeKind, parse_index, raindrop_model};
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::plot::write_whole;
@@ -75,6 +76,9 @@ fn wavelength(args: &RaysArgs) -> Result<f64> {
 }
 
 pub fn run(args: RaysArgs) -> Result<()> {
+    if let Some(path) = &args.output {
+        Output { flag: "--output", path, kind: "an SVG", endings: &["svg"] }.check()?;
+    }
     let shape = shape(&args)?;
     let medium = args.made_of.medium(args.index)?;
     if !(2..=MOST_RAYS).contains(&args.count) {

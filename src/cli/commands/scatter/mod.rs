@@ -7,6 +7,7 @@ mod report;
 use crate::cli::args::particle::{ShapeFlags, ShapeKind, parse_orders, raindrop_model};
 use crate::cli::args::ranges::scattering_angles;
 use crate::cli::failure::{Failure, Result};
+use crate::cli::show::progress;
 pub use args::ScatterArgs;
 use args::{DiffractionName, Job, MethodName};
 use gonio::math::digits::to_digits;
@@ -20,6 +21,7 @@ use std::time::Instant;
 pub fn run(args: ScatterArgs) -> Result<()> {
     let job = job(&args)?;
     let start = Instant::now();
+    let spinner = progress::spinner("amplitudes");
     let seen = match args.method {
         MethodName::Mie => {
             sphere_only(&args)?;
@@ -37,6 +39,7 @@ pub fn run(args: ScatterArgs) -> Result<()> {
         MethodName::Tmatrix => scatter::t_matrix(&job.request, &shape(&args, &job)?)?,
     };
     let seconds = start.elapsed().as_secs_f64();
+    spinner.finish_and_clear();
     report::note(&args, &job, &seen);
     if args.json {
         println!("{}", report::to_json(&args, &job, &seen, seconds));

@@ -1,6 +1,7 @@
 //! Amplitudes and what they are worth, as a table, as JSON, and in notes on stderr.
 
 use super::args::{Job, MethodName, ScatterArgs};
+use crate::cli::show::notes;
 use gonio::farfield::ErrorEstimate;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{DOUBTFUL_PHASE_SHIFT, phase_shift};
@@ -11,22 +12,22 @@ use serde_json::{Value, json};
 /// Says on stderr where a result is worth less than was asked.
 pub(super) fn note(args: &ScatterArgs, job: &Job, seen: &Scattering) {
     if let Some(left) = seen.remainder.filter(|left| left.not_converged) {
-        eprintln!(
-            "note: the sum of Debye terms up to order {} has not converged: what is left out is {:.1e} of \
+        notes::tell([format!(
+            "the sum of Debye terms up to order {} has not converged: what is left out is {:.1e} of \
              the amplitude outside the forward peak; --method mie has all orders",
             left.last_order, left.share
-        );
+        )]);
     }
     let Some(worth) = seen.worth else { return };
     let phase_shift = phase_shift(job.request.index, job.request.size_parameter);
     if args.method == MethodName::Rays && phase_shift < DOUBTFUL_PHASE_SHIFT {
-        eprintln!(
-            "note: the phase shift through the particle, 2x|n - 1| = {phase_shift:.1}, is small for rays \
+        notes::tell([format!(
+            "the phase shift through the particle, 2x|n - 1| = {phase_shift:.1}, is small for rays \
              (below {DOUBTFUL_PHASE_SHIFT}): intensities from 10 to 170 degrees are {:.0} % off, \
              weighted by intensity, and {:.0} % on average over angles",
             100.0 * worth.weighted,
             100.0 * worth.by_band
-        );
+        )]);
     }
     let doubtful: Vec<f64> = (job.theta_deg.iter().copied())
         .filter(|theta| worth.at(theta.to_radians()) > NOTED_ERROR)
@@ -34,20 +35,20 @@ pub(super) fn note(args: &ScatterArgs, job: &Job, seen: &Scattering) {
     let ends =
         (doubtful.iter().copied().reduce(f64::min), doubtful.iter().copied().reduce(f64::max));
     if let (Some(from), Some(to)) = ends {
-        eprintln!(
-            "note: {} of {} intensities, between {from} and {to} degrees, may be off by more than {:.0} %: see \
+        notes::tell([format!(
+            "{} of {} intensities, between {from} and {to} degrees, may be off by more than {:.0} %: see \
              error_estimate_by_theta of --json",
             doubtful.len(),
             job.theta_deg.len(),
             100.0 * NOTED_ERROR
-        );
+        )]);
     }
     let back = worth.straight_back;
     if back > NOTED_ERROR {
-        eprintln!(
-            "note: straight back rays may be off by {:.0} %: q_back is doubtful",
+        notes::tell([format!(
+            "straight back rays may be off by {:.0} %: q_back is doubtful",
             100.0 * back
-        );
+        )]);
     }
 }
 
