@@ -5,6 +5,9 @@
 //! differences of linear functions (Sutherland & Hodgman 1974): shares fill the beam without a gap, and their
 //! corners are exact points in space.
 //!
+//! Absorption takes `exp(−k₀ k d)` along the path; directions and coefficients are those of the real part of
+//! the index, so that powers add up (reflected power is off by `k²/(n − 1)²` of itself at most, 1 % at k = 0.03).
+//!
 //! ```
 //! use gonio::facets::{Body, beams::{Incidence, Settings, split}};
 //!
@@ -68,16 +71,6 @@ struct Beam {
     trapped: bool,
 }
 
-/// A wave that starts or ends on a polygon of the surface.
-#[derive(Clone, Copy, Debug)]
-pub struct End {
-    /// Unit vector of the wave inside.
-    pub direction: DVec3,
-    /// Fields for light along x and y at the polygon's centre without phase and loss, times the cosine to the
-    /// facet; negative where the wave starts.
-    pub fields: [Field; 2],
-}
-
 /// A polygon of the surface on which beams start or end, all with the same phases along it.
 #[derive(Clone, Debug)]
 pub struct Patch {
@@ -97,8 +90,13 @@ pub struct Patch {
     pub length: f64,
     /// Its slope along the axes.
     pub lengthening: [f64; 2],
-    /// The waves.
-    pub ends: Vec<End>,
+    /// Along the facet, for light along x and y, at the centre without phase and loss: `n × E` of the whole
+    /// field on the surface.
+    pub electric: [Field; 2],
+    /// `n × H` of it, in units of the fields in vacuum.
+    pub magnetic: [Field; 2],
+    /// Unit vector of the wave inside that starts here (order 0) or ends.
+    pub inside: DVec3,
     /// What leaves here.
     pub leaving: Leaving,
 }
@@ -188,6 +186,12 @@ fn turned(
     real(across).carry(a * perpendicular) + real(after).carry(b * parallel)
 }
 
+/// `v × E`.
+fn cross(v: DVec3, e: Field) -> Field {
+    let c = |a: f64, b: f64, p: Complex64, q: Complex64| p * a - q * b;
+    Field { x: c(v.y, v.z, e.z, e.y), y: c(v.z, v.x, e.x, e.z), z: c(v.x, v.y, e.y, e.x) }
+}
+
 fn size(field: Field) -> f64 {
     field.x.norm_sqr() + field.y.norm_sqr() + field.z.norm_sqr()
 }
@@ -232,9 +236,9 @@ impl Splitter<'_> {
         let (n, across) = (self.index.re, across(DVec3::Z, normal));
         let inside = refracted(DVec3::Z, normal, 1.0 / n)?;
         let outside = mirrored(DVec3::Z, normal);
-        let f = fresnel(cos, self.index);
+        let f = fresnel(cos, n.into());
         let incident = [DVec3::X, DVec3::Y].map(|e| real(e).carry(1.0.into()));
-        let through = [1.0 + f.r_perpendicular, (1.0 + f.r_parallel) / self.index];
+        let through = [1.0 + f.r_perpendicular, (1.0 + f.r_parallel) / n];
         let fields = incident.map(|e| turned(e, across, [DVec3::Z, inside], through));
         let back = [f.r_perpendicular, f.r_parallel];
         let reflected = incident.map(|e| turned(e, across, [DVec3::Z, outside], back));
@@ -253,10 +257,9 @@ impl Splitter<'_> {
             power: 0.0,
             trapped: false,
         };
-        let end =
-            End { direction: inside, fields: fields.map(|e| e * Complex64::from(-cos_inside)) };
+        let waves = [(inside, fields)];
         let leaving = Leaving { order: 0, direction: Some(outside), fields: reflected, power };
-        let patch = self.patch(number, &beam.corners, &beam, vec![end], leaving);
+        let patch = self.patch(number, &beam.corners, &beam, &waves, leaving);
         beam.power = n * cos_inside * mean_square(&fields) * self.weight(&patch) / self.shadow;
         self.patches.push(patch);
         Some(beam)
@@ -277,7 +280,7 @@ impl Splitter<'_> {
         facet: usize,
         corners: &[DVec3],
         beam: &Beam,
-        ends: Vec<End>,
+        waves: &[(DVec3, [Field; 2])],
         leaving: Leaving,
     ) -> Patch {
         let normal = self.body.facets()[facet].normal;
@@ -287,6 +290,13 @@ impl Splitter<'_> {
         let flat: Vec<[f64; 2]> =
             corners.iter().map(|c| axes.map(|axis| axis.dot(*c - centre))).collect();
         let n = self.index.re;
+        // of all waves inside: what is along the facet is the same on both sides of it
+        let tangential = |of: &dyn Fn(DVec3, Field) -> Field| -> [Field; 2] {
+            [0, 1].map(|polarisation| {
+                let parts = waves.iter().map(|(way, fields)| of(*way, fields[polarisation]));
+                cross(normal, parts.fold(Field::default(), |sum, e| sum + e))
+            })
+        };
         Patch {
             facet,
             centre,
@@ -296,7 +306,9 @@ impl Splitter<'_> {
             slope: axes.map(|axis| n * axis.dot(beam.direction)),
             length: beam.length + beam.lengthening.dot(centre),
             lengthening: axes.map(|axis| axis.dot(beam.lengthening)),
-            ends,
+            electric: tangential(&|_, e| e),
+            magnetic: tangential(&|way, e| cross(way, e) * Complex64::from(n)),
+            inside: beam.direction,
             leaving,
         }
     }
@@ -350,16 +362,12 @@ impl Splitter<'_> {
             let across = across(beam.direction, normal);
             let inside = mirrored(beam.direction, normal);
             let outside = refracted(beam.direction, normal, n);
-            let f = fresnel(cos, self.index.inv());
+            let f = fresnel(cos, (1.0 / n).into());
             let back = [f.r_perpendicular, f.r_parallel];
             let fields = beam.fields.map(|e| turned(e, across, [beam.direction, inside], back));
-            let end = |direction, fields: &[Field; 2], cos: f64| End {
-                direction,
-                fields: fields.map(|e| e * Complex64::from(cos)),
-            };
-            let ends = vec![end(beam.direction, &beam.fields, cos), end(inside, &fields, -cos)];
+            let waves = [(beam.direction, beam.fields), (inside, fields)];
             let leaving = self.leaving(beam, across, outside, &f);
-            let mut patch = self.patch(number, &corners, beam, ends, leaving);
+            let mut patch = self.patch(number, &corners, beam, &waves, leaving);
             if patch.polygon.area() < NO_AREA {
                 continue;
             }
@@ -408,8 +416,7 @@ impl Splitter<'_> {
         outside: Option<DVec3>,
         f: &crate::optics::Fresnel,
     ) -> Leaving {
-        let n = self.index;
-        let through = [1.0 + f.r_perpendicular, (1.0 + f.r_parallel) * n];
+        let through = [1.0 + f.r_perpendicular, (1.0 + f.r_parallel) * self.index.re];
         let fields = outside.map_or([Field::default(); 2], |direction| {
             beam.fields.map(|e| turned(e, across, [beam.direction, direction], through))
         });
@@ -479,8 +486,7 @@ mod tests {
         assert!(worst < 1e-12, "as measured: {worst:e}");
     }
 
-    /// With absorption what is missing is of the order of k: coefficients of absorbing media do not share
-    /// power between reflected and transmitted alone. Strong absorption leaves the reflected light.
+    /// So it does with absorption; strong absorption leaves the reflected light.
     #[test]
     fn absorbed_light_is_told_of() {
         for (k, x) in [(1e-6, 100.0), (1e-3, 100.0), (1e-2, 1000.0)] {
@@ -488,8 +494,7 @@ mod tests {
                 let light = Incidence { index: Complex64::new(1.31, k), size_parameter: x };
                 let beams = split(&body.turned(&turn(3)), &light, &Settings::default());
                 let budget = &beams.budget;
-                let slack = k * budget.left_by_order.len() as f64;
-                assert!(budget.residual.abs() < slack, "{k} {budget:?}");
+                assert!(budget.residual.abs() < 1e-12, "{k} {budget:?}");
                 let through: f64 = budget.left_by_order[1..].iter().sum();
                 assert!(x < 500.0 || (through < 1e-3 && budget.absorbed > 0.85), "{budget:?}");
             }
@@ -526,7 +531,7 @@ mod tests {
                 };
                 let through = beams.patches.iter().filter(|p| {
                     let first = p.leaving.order == 1 && p.facet < 2 && p.leaving.power > 1e-6;
-                    first && wedge(p.ends[0].direction)
+                    first && wedge(p.inside)
                 });
                 let angles = through.filter_map(|p| p.leaving.direction).map(|d| d.z.acos());
                 least = angles.fold(least, f64::min);

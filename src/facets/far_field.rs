@@ -1,9 +1,13 @@
-//! Amplitudes of a body: what the waves inside radiate.
+//! Amplitudes of a body: what the fields on its surface radiate.
 //!
-//! The scattered field is `−ik³/4π (m² − 1) ∫ E⊥ exp(−ik r̂·r) d³r` over the body (Bohren & Huffman's `S`
-//! stands before `exp(ikr)/(−ikr)`). Along a beam the integrand is one exponential, whose integral is taken at the two
-//! ends; what is left is the transform of the polygons where the beam starts and ends, over `m − r̂·s`, which
-//! never vanishes inside a denser body. Light that is totally reflected radiates too, as it does near edges.
+//! A closed surface with the electric and magnetic field along it radiates (Stratton & Chu 1939; Schelkunoff)
+//! `E = ik/4π · exp(ikr)/r · r̂ × ∫ [n × E − r̂ × (n × H)] exp(−ik r̂·r) dS`. The fields are those of all beams
+//! where they start and end: plane waves on polygons, of which each leaves one Fourier transform. They are
+//! the whole fields, light that falls on the body included; that one alone radiates nothing from a closed
+//! surface, so what is left is the scattered field: reflection, what is sent through, and the shadow's
+//! diffraction in one sum, none of it counted twice. Under total reflection the fields on a facet are not
+//! nothing either; with them the power over all directions is what the optical theorem says (within 1 % from size parameter
+//! 10 on), without them several per cent are missing.
 //!
 //! ```
 //! use gonio::facets::{Body, FarField, beams::{Incidence, Settings, split}};
@@ -46,7 +50,8 @@ struct Source {
     /// Largest distance of a corner, and corners, each with what is left there.
     radius: f64,
     corners: Vec<[f64; 3]>,
-    ends: Vec<(DVec3, [Field; 2])>,
+    electric: [Field; 2],
+    magnetic: [Field; 2],
     /// The polygon itself, for directions near the beam's own.
     polygon: Polygon,
     /// What is left at the centre.
@@ -61,8 +66,9 @@ pub struct FarField {
     sources: Vec<Source>,
 }
 
-/// Sums of both polarisations: x, y, z of real and imaginary parts.
-type Sums = [[[Lanes; 2]; 3]; 2];
+/// Sums of both polarisations, of the electric and the magnetic field: x, y, z of real and imaginary parts.
+type Sums = [[[[Lanes; 2]; 3]; 2]; 2];
+const NOTHING: Sums = [[[[[0.0; LANES]; 2]; 3]; 2]; 2];
 
 impl FarField {
     /// Of beams that were split.
@@ -98,17 +104,22 @@ impl FarField {
 
     /// From sums of fields to the matrix.
     fn matrix(&self, frame: &Frame, sums: &Sums, lane: usize) -> AmplitudeMatrix {
-        let m = self.index;
-        let factor = -(m * m - 1.0) * (self.wavenumber.powi(2) / (4.0 * PI));
-        let field = |polarisation: usize| -> Field {
-            let [x, y, z] = [0, 1, 2].map(|c| sums[polarisation][c].map(|part| part[lane]));
-            let number = |[re, im]: [f64; 2]| Complex64::new(re, im) * factor;
-            Vec3 { x: number(x), y: number(y), z: number(z) }
+        let factor = self.wavenumber.powi(2) / (4.0 * PI);
+        let field = |polarisation: usize, kind: usize| -> Field {
+            let part = |c: usize| {
+                let [re, im] = sums[polarisation][kind][c].map(|part| part[lane]);
+                Complex64::new(re, im) * factor
+            };
+            Vec3 { x: part(0), y: part(1), z: part(2) }
         };
-        let seen = |field: Field| {
-            [frame.parallel, frame.perpendicular].map(|e| Vec3::<f64>::from(e).project(field))
+        // r̂ × a + b, of which the part along r̂ is not seen
+        let along = |e: DVec3, field: Field| Vec3::<f64>::from(e).project(field);
+        let seen = |polarisation: usize| {
+            let (electric, magnetic) = (field(polarisation, 0), field(polarisation, 1));
+            [frame.parallel, frame.perpendicular]
+                .map(|e| along(e, magnetic) + along(e.cross(frame.way), electric))
         };
-        let ([x_par, x_per], [y_par, y_per]) = (seen(field(0)), seen(field(1)));
+        let ([x_par, x_per], [y_par, y_per]) = (seen(0), seen(1));
         let (sin, cos) = (frame.sin_phi, frame.cos_phi);
         AmplitudeMatrix {
             s2: x_par * cos + y_par * sin,
@@ -159,7 +170,8 @@ impl Source {
             loss,
             radius: waves * patch.polygon.radius(),
             corners: patch.polygon.corners().iter().map(corner).collect(),
-            ends: patch.ends.iter().map(|end| (end.direction, end.fields)).collect(),
+            electric: patch.electric,
+            magnetic: patch.magnetic,
             polygon: patch.polygon.clone(),
             left,
         }
@@ -289,28 +301,16 @@ fn corner_wave<const FMA: bool, const ABSORBING: bool>(
 
 #[inline(always)]
 fn add<const FMA: bool, const ABSORBING: bool>(far: &FarField, ways: &[Lanes; 3]) -> Sums {
-    let mut sums: Sums = [[[[0.0; LANES]; 2]; 3]; 2];
-    let m = far.index;
+    let mut sums = NOTHING;
     for source in &far.sources {
         let [f_re, f_im] = source.transforms::<FMA, ABSORBING>(far.wavenumber, ways);
-        for (s, fields) in &source.ends {
-            let (mut w_re, mut w_im) = ([0.0; LANES], [0.0; LANES]);
-            for k in 0..LANES {
-                let gap = m.re - (ways[0][k] * s.x + ways[1][k] * s.y + ways[2][k] * s.z);
-                if ABSORBING {
-                    let over = 1.0 / (gap * gap + m.im * m.im);
-                    w_re[k] = (f_re[k] * gap + f_im[k] * m.im) * over;
-                    w_im[k] = (f_im[k] * gap - f_re[k] * m.im) * over;
-                } else {
-                    let over = 1.0 / gap;
-                    (w_re[k], w_im[k]) = (f_re[k] * over, f_im[k] * over);
-                }
-            }
-            for (sum, field) in sums.iter_mut().zip(fields) {
+        for polarisation in 0..2 {
+            let fields = [source.electric[polarisation], source.magnetic[polarisation]];
+            for (sum, field) in sums[polarisation].iter_mut().zip(fields) {
                 for (part, e) in sum.iter_mut().zip([field.x, field.y, field.z]) {
                     for k in 0..LANES {
-                        part[0][k] += w_re[k] * e.re - w_im[k] * e.im;
-                        part[1][k] += w_re[k] * e.im + w_im[k] * e.re;
+                        part[0][k] += f_re[k] * e.re - f_im[k] * e.im;
+                        part[1][k] += f_re[k] * e.im + f_im[k] * e.re;
                     }
                 }
             }
@@ -364,26 +364,24 @@ mod tests {
             let directions = [(0.0, 0.0), (0.3, 1.0), (1.2, -0.4), (2.9, 2.0), (1.5, 0.0)];
             for (direction, found) in directions.iter().zip(far.amplitudes(&directions)) {
                 let way = Frame::new(*direction).way;
-                let ways: [Lanes; 3] = std::array::from_fn(|c| [way.to_array()[c]; LANES]);
-                let mut sums: Sums = [[[[0.0; LANES]; 2]; 3]; 2];
+                let mut sums = NOTHING;
                 for source in &far.sources {
                     let slope = [0, 1].map(|c| source.slope[c] - way.dot(source.axes[c]));
                     let turns = source.phase - way.dot(source.centre);
                     let wave = Complex64::cis(TAU * turns) * source.left;
                     let f = source.transform(far.wavenumber, slope) * wave;
-                    for (s, fields) in &source.ends {
-                        let weight = f / (index - way.dot(*s));
-                        for (sum, e) in sums.iter_mut().zip(fields) {
+                    for (polarisation, sum) in sums.iter_mut().enumerate() {
+                        let kinds = [source.electric, source.magnetic];
+                        for (sum, e) in sum.iter_mut().zip(kinds.map(|e| e[polarisation])) {
                             for (part, e) in sum.iter_mut().zip([e.x, e.y, e.z]) {
-                                part[0][0] += (weight * e).re;
-                                part[1][0] += (weight * e).im;
+                                part[0][0] += (f * e).re;
+                                part[1][0] += (f * e).im;
                             }
                         }
                     }
                 }
                 let wanted = far.matrix(&Frame::new(*direction), &sums, 0);
                 assert!((wanted - found).s11() < 1e-22 * far.wavenumber.powi(4), "{direction:?}");
-                assert!(ways[2][0].is_finite());
             }
         }
     }

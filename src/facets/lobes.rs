@@ -25,6 +25,8 @@ pub(super) struct Lobes {
 
 /// Share of the directions that is spread evenly.
 const EVENLY: f64 = 0.4;
+/// Straight ahead and behind all azimuths are one direction.
+const ON_AXIS: f64 = 1e-9;
 /// Strongest beams that are looked for.
 const MOST: usize = 24;
 
@@ -52,6 +54,11 @@ impl Lobes {
     /// Azimuths at one scattering angle, each with its weight in the mean over azimuth; `start` from 0 to 1.
     pub fn azimuths(&self, theta: f64, count: usize, start: f64) -> Vec<(f64, f64)> {
         let (sin, cos) = theta.sin_cos();
+        if sin < ON_AXIS {
+            // frames turn with the azimuth: evenly spread, polarisation cancels
+            let even = |j: usize| (TAU * (j as f64 + start) / count as f64, 1.0 / count as f64);
+            return (0..count).map(even).collect();
+        }
         // a − b cos Δ, its share of all, and its azimuth
         let mut parts: Vec<[f64; 4]> = Vec::with_capacity(self.lobes.len());
         let mut total = 0.0;
@@ -191,7 +198,8 @@ mod tests {
             };
             assert!((mean(&|_, _| 1.0) / (4.0 * PI) - 1.0).abs() < 0.02);
             assert!(mean(&|theta, _| theta.cos()).abs() < 0.2);
-            let narrow = mean(&|theta, _| (1.0 + (2.0 * x * (0.5 * theta).sin()).powi(2)).powf(-1.5));
+            let narrow =
+                mean(&|theta, _| (1.0 + (2.0 * x * (0.5 * theta).sin()).powi(2)).powf(-1.5));
             let wanted = TAU / (x * x);
             assert!((narrow / wanted - 1.0).abs() < 0.1, "{x}: {narrow} {wanted}");
         }

@@ -102,6 +102,19 @@ impl Sums {
     }
 }
 
+/// Mean area of the shadow, in squared radii of the sphere of equal volume.
+pub fn mean_shadow(body: &Body, stand: Stand, sun_elevation: f64, count: u32) -> f64 {
+    let area = |turn: glam::DMat3| body.shadow(turn.transpose() * glam::DVec3::Z);
+    match stand {
+        // Cauchy
+        Stand::Random => body.surface() / 4.0,
+        _ => {
+            let at = |index| area(stand.rotation(point(index, 0), sun_elevation));
+            (0..count).map(at).sum::<f64>() / f64::from(count)
+        }
+    }
+}
+
 impl Request<'_> {
     fn elements(&self) -> usize {
         if self.whole { 16 } else { 1 }

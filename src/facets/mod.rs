@@ -1,12 +1,12 @@
 //! Polyhedra: ice crystals, prisms, any convex closed body of flat facets, with interference and diffraction.
 //!
 //! Light is split into beams of polygonal cross-section, each a plane wave inside the body, with exact points
-//! in three dimensions ([`beams`]). The waves inside are the sources of the scattered field: the integral
-//! over the volume of every beam is done in closed form and leaves one Fourier transform per polygon on the
-//! surface ([`polygon`]), which holds external reflection, every transmitted wave, and the shadow's diffraction alike: nothing is
-//! counted twice ([`far_field`]). Means over orientations carry an error from replicas ([`orientation`]).
+//! in three dimensions ([`beams`]). The fields where beams start and end on the surface radiate, each polygon by
+//! one Fourier transform in closed form ([`polygon`]): external reflection, every transmitted wave and the
+//! shadow's diffraction are one sum, and nothing is counted twice ([`far_field`]). Means over orientations
+//! carry an error from replicas ([`mean`], [`orientation`]).
 //!
-//! After Yang & Liou, Appl. Opt. 35, 6568 (1996) (volume integral over rays); Bi, Yang, Kattawar, Hu & Baum,
+//! After Yang & Liou, Appl. Opt. 35, 6568 (1996) (fields near the body by rays); Bi, Yang, Kattawar, Hu & Baum,
 //! J. Quant. Spectrosc. Radiat. Transfer 112, 1492 (2011) (broad beams); Wuttke, J. Appl. Cryst. 54, 580
 //! (2021) (polygons).
 //!
@@ -25,6 +25,7 @@ mod lobes;
 pub mod mean;
 pub mod orientation;
 pub mod polygon;
+pub mod table;
 
 pub use body::{Body, BodyError};
 pub use far_field::FarField;

@@ -66,7 +66,7 @@ fn known_keys_are_those_of_the_structs() {
             size_distribution: Some("kind = 'delta', radius_um = 1".parse().unwrap()),
             axis_ratio: Some(AxisRatioKey::Number(1.0)),
             canting: Some(CantingKeys { deviation_deg: 7.0 }),
-            orientation: Some(OrientationKey(Orientation::Random)),
+            orientation: Some(OrientationKey::from(Orientation::Random)),
             model: Some(Choice(RaindropModel::BeardChuang1987)),
             temperature_c: Some(20.0),
             density_kg_m3: Some(1000.0),

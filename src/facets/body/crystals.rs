@@ -2,6 +2,7 @@
 //! the cross-section is a hexagon: corners are.
 
 use super::{Body, BodyError};
+use crate::shape::Crystal;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -77,6 +78,25 @@ fn tip(apex: f64) -> f64 {
 }
 
 impl Body {
+    /// The body of a crystal's proportions.
+    ///
+    /// # Errors
+    /// Proportions that are none.
+    pub fn of(crystal: &Crystal) -> Result<Self, BodyError> {
+        match *crystal {
+            Crystal::HexagonalColumn { axis_ratio } => Self::hexagonal_column(axis_ratio),
+            Crystal::TriangularPrism { axis_ratio, apex } => {
+                Self::triangular_prism(apex, axis_ratio)
+            }
+            Crystal::Cuboid { axis_ratio } => Self::cuboid(axis_ratio),
+            Crystal::Octahedron => Self::octahedron(),
+            Crystal::PyramidalCrystal { axis_ratio, apex } => {
+                Self::pyramidal_crystal(axis_ratio, apex)
+            }
+            Crystal::Bullet { axis_ratio, apex } => Self::bullet(axis_ratio, apex),
+        }
+    }
+
     /// A hexagonal column or plate; `axis_ratio` is its length over its width from corner to corner.
     ///
     /// # Errors

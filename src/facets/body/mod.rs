@@ -100,6 +100,15 @@ impl Body {
         (0..v.len()).flat_map(from).fold(0.0, f64::max)
     }
 
+    /// Least distance of two parallel planes that hold the body between them, one of them a facet's.
+    pub fn width(&self) -> f64 {
+        let depth = |f: &Facet| {
+            let to = |v: &DVec3| f.distance - v.dot(f.normal);
+            self.vertices.iter().map(to).fold(0.0, f64::max)
+        };
+        self.facets.iter().map(depth).fold(f64::INFINITY, f64::min)
+    }
+
     /// The body turned.
     #[must_use]
     pub fn turned(&self, rotation: &glam::DMat3) -> Self {
