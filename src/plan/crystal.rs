@@ -17,7 +17,7 @@ const ORIENTATIONS: u32 = 512;
 const REPLICAS: u32 = 8;
 /// Most chords, and the share of the light of a beam that is no longer followed per tolerance.
 const LAST_ORDER: u32 = 24;
-const POWER_PER_TOLERANCE: f64 = 1e-3;
+const POWER_PER_TOLERANCE: f64 = 1e-2;
 
 impl Plan {
     /// Of a crystal.
@@ -99,7 +99,7 @@ impl Plan {
 
     /// How far beams are followed.
     pub fn beam_settings(&self) -> Settings {
-        let least_power = (POWER_PER_TOLERANCE * self.tolerance).clamp(1e-8, 1e-4);
+        let least_power = (POWER_PER_TOLERANCE * self.tolerance).clamp(1e-8, 1e-3);
         Settings { last_order: LAST_ORDER, least_power }
     }
 
