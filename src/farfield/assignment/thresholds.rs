@@ -206,7 +206,7 @@ impl Thresholds {
         doubtful_phase_shift: 20.0,
         largest_k_over_n: 0.03,
         least_facet_sizes: [20.0, 5.0],
-        error_of_facets: 5.5,
+        error_of_facets: 6.0,
         highest_order: 24,
         least_last_order: 3,
         left_out_per_tolerance: 0.035,
