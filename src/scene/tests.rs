@@ -60,6 +60,7 @@ fn known_keys_are_those_of_the_structs() {
     let full = SceneFile {
         particle: ParticleKeys {
             shape: Some(Choice(ShapeName::Sphere)),
+            apex_deg: Some(60.0),
             radius_mm: Some(1.0),
             radius_um: Some(1.0),
             diameter_mm: Some(1.0),
