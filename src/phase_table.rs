@@ -133,9 +133,9 @@ pub struct TableHeader {
     pub forward_peak: ForwardPeak,
     /// The scattering does not depend on azimuth; `axes.phi` has one value.
     pub rotational_symmetry: bool,
-    /// `rays`, `mie`, `debye` or `tmatrix`.
+    /// `rays`, `mie`, `debye`, `tmatrix` or `facets`.
     pub method: String,
-    /// `sphere`, `spheroid`, `raindrop`.
+    /// `sphere`, `spheroid`, `raindrop`, `hexagonal-column` …: the scene's word.
     pub shape: String,
     /// Radius of the sphere of equal volume, metres.
     pub radius: f64,

@@ -16,6 +16,7 @@
 
 mod acceptance;
 mod cost;
+mod crystal;
 mod engine;
 mod methods;
 mod orders;
@@ -26,11 +27,13 @@ pub use acceptance::{
     phase_shift,
 };
 pub use cost::{Cost, available_memory};
+pub use crystal::stand;
 pub use engine::Engine;
 pub use methods::PlannedRange;
 pub use orders::{last_order, orders_that_matter};
 pub use t_matrix::amplitude_tolerance;
 
+use crate::facets;
 use crate::farfield::assignment::Thresholds;
 use crate::math::digits::to_digits;
 use crate::medium::Light;
@@ -46,6 +49,8 @@ pub enum Symmetry {
     Rotational,
     /// Mirror images on both sides of the vertical plane: half the azimuths are computed.
     Mirror,
+    /// Each azimuth is computed: a crystal that stands still.
+    None,
 }
 
 /// What will be computed.
@@ -53,8 +58,10 @@ pub enum Symmetry {
 pub struct Plan {
     /// Who computes.
     pub engine: Engine,
-    /// What scatters.
+    /// What scatters; of crystals the sphere of equal volume, for those who ask for its size alone.
     pub shape: Shape,
+    /// Of crystals the body of facets.
+    pub crystal: Option<facets::Body>,
     /// Radius of equal volume, metres.
     pub radius: f64,
     /// How scattering depends on azimuth.
@@ -118,6 +125,9 @@ impl Plan {
     }
 
     fn of_one_kind(scene: &Scene, thresholds: Thresholds) -> Result<Self, PlanError> {
+        if let Particle::Crystal { radius, crystal } = &scene.particle {
+            return Self::of_crystal(scene, *radius, crystal, thresholds);
+        }
         let (mut shape, radius) = shape(&scene.particle, scene.sun_elevation)?;
         if let Some(sizes) = scene.size_distribution.as_ref().filter(|_| !is_ball(scene)) {
             // of many sizes the largest says whether they are spheres
@@ -159,6 +169,7 @@ impl Plan {
         Ok(Self {
             engine,
             shape,
+            crystal: None,
             radius,
             symmetry,
             orders,
@@ -190,6 +201,7 @@ impl Plan {
         Self {
             engine,
             shape,
+            crystal: None,
             radius,
             symmetry,
             orders,
@@ -209,7 +221,7 @@ impl Plan {
     pub fn table_azimuths(&self, asked: &[f64]) -> Vec<f64> {
         match self.symmetry {
             Symmetry::Rotational => vec![asked.first().copied().unwrap_or(0.0)],
-            Symmetry::Mirror => asked.to_vec(),
+            Symmetry::Mirror | Symmetry::None => asked.to_vec(),
         }
     }
 
@@ -217,6 +229,9 @@ impl Plan {
     /// serves it and whether as mirror image.
     pub fn computed_azimuths(&self, table: &[f64]) -> (Vec<f64>, Vec<(usize, bool)>) {
         const SAME: f64 = 1e-9;
+        if self.symmetry == Symmetry::None {
+            return (table.to_vec(), (0..table.len()).map(|j| (j, false)).collect());
+        }
         let fold = |phi: f64| {
             let turned = phi.rem_euclid(TAU);
             if turned > PI { (TAU - turned, true) } else { (turned, false) }
@@ -254,6 +269,7 @@ pub fn shape(particle: &Particle, sun_elevation: f64) -> Result<(Shape, f64), Sh
         Particle::Raindrop { radius, model } => {
             (Shape::raindrop(*radius, *model, sun_elevation)?, *radius)
         }
+        Particle::Crystal { crystal, .. } => return Err(ShapeError::Faceted(crystal.name())),
         Particle::Own { radius, body } => (Shape::own(body.clone(), sun_elevation), *radius),
     })
 }

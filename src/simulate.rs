@@ -32,6 +32,7 @@ mod directions;
 mod drops;
 mod energy;
 mod error;
+mod facets;
 mod header;
 mod order_power;
 mod prepared;
@@ -180,6 +181,9 @@ fn computed_slab(
     if matches!(plan.engine, Engine::LorenzMie | Engine::Debye) {
         let slab = series::slab(scene, plan, wavelength, light)?;
         return Ok(Slab { wavelength, methods: plan.series_parts(scene), ..slab });
+    }
+    if plan.engine == Engine::Facets {
+        return Ok(facets::slab(scene, plan, wavelength, light)?);
     }
     if plan.engine == Engine::TMatrix {
         return Ok(Slab { wavelength, ..t_matrix::slab(scene, plan, light)? });

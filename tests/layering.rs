@@ -18,7 +18,7 @@ const FLOORS: [(u32, &[&str]); 13] = [
     (7, &["simulate"]),
     (6, &["plan", "tabulate"]),
     // Rain by its T-matrices.
-    (5, &["farfield", "radar"]),
+    (5, &["farfield", "facets", "radar"]),
     // The export formats that are netCDF files use the writer of hdf5.
     (4, &["series", "export"]),
     (3, &["hdf5", "population"]),

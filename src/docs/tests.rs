@@ -28,6 +28,7 @@ fn with(section: &str, key: &str, value: &str) -> Result<Scene, String> {
     let shape = match key {
         "axis_ratio" => "shape = \"spheroid\"",
         "model" => "shape = \"raindrop\"",
+        "apex_deg" => "shape = \"bullet\"\naxis_ratio = 1",
         "shape" => "",
         _ => "shape = \"sphere\"",
     };

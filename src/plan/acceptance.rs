@@ -1,5 +1,6 @@
 //! Which particles rays are accepted for, and what is said to those they are not.
 
+use crate::facets::BodyError;
 use crate::farfield::assignment::Thresholds;
 use crate::fault::{Blame, Fault};
 use crate::math::digits::to_digits;
@@ -19,6 +20,31 @@ pub enum PlanError {
     Medium(#[from] MediumError),
     #[error(transparent)]
     TMatrix(#[from] TMatrixError),
+    #[error(
+        "method = \"facets\": it is for crystals and prisms, such as shape = \"hexagonal-column\""
+    )]
+    FacetsNeedCrystal,
+    #[error("particle: {0}")]
+    Crystal(#[from] BodyError),
+    #[error(
+        "index {index}{place}: a crystal is to be denser than what is around it (index above 1): rays that are \
+         totally reflected outside are not followed"
+    )]
+    ThinnerBody { index: f64, place: String },
+    #[error(
+        "size parameter {size_parameter:.1}{place}, half the width between the nearest planes {half_width:.1} reduced \
+         wavelengths: facets are accepted from {} and {} on (below, fields on a facet are no plane waves cut off \
+         at its edges; intensities would be some {error:.0} % off, root mean square over directions)",
+        limits[0],
+        limits[1]
+    )]
+    SmallCrystal {
+        size_parameter: f64,
+        half_width: f64,
+        place: String,
+        limits: [f64; 2],
+        error: f64,
+    },
     #[error(
         "method = \"{0}\": the exact series serve spheres only; accepted here: \"rays\", \"tmatrix\""
     )]

@@ -45,6 +45,9 @@ const MEANS: f64 = 82e6;
 const T_MATRIX: f64 = 40.0;
 const T_MATRIX_VALUE: f64 = 4.0;
 
+/// Of a crystal's table: eight replicas and the pieces of one, of eight bytes, over those of a T-matrix.
+const REPLICAS_AND_PIECES: f64 = 24.0 * 8.0 / T_MATRIX_VALUE;
+
 /// Processor seconds to compress and write one value, to start and draw an empty preview, and to draw
 /// one of its directions.
 const WRITE_VALUE: f64 = 2.2e-8;
@@ -77,7 +80,7 @@ impl Plan {
         let directions = theta * azimuths as f64;
         let values = directions * scene.quantity.elements() as f64;
         let wavelengths = scene.wavelengths.len() as f64;
-        let series = self.engine.is_exact();
+        let series = self.engine.is_exact() || self.engine == Engine::Facets;
 
         let slabs = SLABS.min(wavelengths + 1.0) * 4.0 * values;
         // half the azimuths are computed, and held until the slab is filled
@@ -124,6 +127,8 @@ impl Plan {
                 let left = 1.0 + LEFT_BETWEEN * (others / (LEFT_AFTER - 1.0)).min(1.0);
                 (MERIDIANS + tangled) * orders * left
             }
+            // values (f64) of every replica, and of the pieces of one
+            Engine::Facets => REPLICAS_AND_PIECES * self.directions(scene),
             Engine::TMatrix => {
                 let degrees = expectation(&self.shape, x).map_or(0.0, |e| e.degrees as f64);
                 T_MATRIX * degrees.powi(3) + self.directions(scene)

@@ -20,6 +20,8 @@ pub enum Engine {
     Debye,
     /// The T-matrix of a body of revolution.
     TMatrix,
+    /// Beams of flat facets.
+    Facets,
 }
 
 impl Engine {
@@ -74,6 +76,8 @@ impl Engine {
                 reasons.push("rays are skipped: the T-matrix averages over orientations".into());
                 Engine::TMatrix
             }
+            // scenes have been asked whether they name a crystal
+            Method::Facets => return Err(PlanError::FacetsNeedCrystal),
             Method::TMatrix => {
                 t_matrix::check(scene, shape, radius)?;
                 Engine::TMatrix

@@ -56,11 +56,11 @@ impl Plan {
                 Some(Assignment::new(tracer, orders, size_parameter, self.tolerance, by))
             }
             Engine::Patches => Some(Assignment::of_patches(tracer, orders, size_parameter, by)),
-            Engine::LorenzMie | Engine::Debye | Engine::TMatrix => None,
+            Engine::LorenzMie | Engine::Debye | Engine::TMatrix | Engine::Facets => None,
         }
     }
 
-    /// The parts of an exact series; none for rays.
+    /// The parts of an exact series or of facets; none for rays.
     pub fn series_parts(&self, scene: &Scene) -> Vec<MethodPart> {
         let part = |order, method: &str| MethodPart {
             order,
@@ -77,6 +77,7 @@ impl Plan {
                 reason: "a body of revolution: exact".into(),
                 ..part(None, "T-matrix")
             }],
+            Engine::Facets => vec![self.part_of_crystal(scene)],
             Engine::Meridians | Engine::Patches => Vec::new(),
         }
     }

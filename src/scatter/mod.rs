@@ -3,7 +3,7 @@
 //!
 //! Where [`simulate`](crate::simulate) makes tables of a scene, this answers for single directions and
 //! takes what it is told: an index, a size parameter, orders. [`lorenz_mie`] and [`debye`] serve spheres,
-//! [`layered`] those that vary along the radius, [`rays`] any shape, [`t_matrix`] bodies of revolution. Efficiencies refer to the sphere of equal volume.
+//! [`layered`] those that vary along the radius, [`rays`] any shape, [`t_matrix`] bodies of revolution, [`facets()`] crystals. Efficiencies refer to the sphere of equal volume.
 //!
 //! ```
 //! use gonio::scatter::{Request, lorenz_mie};
@@ -22,12 +22,14 @@
 //! assert!((4e-4 * seen.amplitudes[0].s1.re / budget.q_ext - 1.0).abs() < 1e-9);
 //! ```
 
+mod facets;
 mod rays;
 mod scene;
 mod series;
 mod size;
 mod tmatrix;
 
+pub use facets::facets;
 pub use rays::{RayDiffraction, RayRequest, rays};
 pub use scene::of_scene;
 pub use series::{DebyeTerms, debye, layered, lorenz_mie};

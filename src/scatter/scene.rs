@@ -1,11 +1,11 @@
 //! One particle of a scene in chosen directions, by the method that the scene's plan chooses.
 
 use super::{
-    DebyeTerms, RayDiffraction, RayRequest, Request, ScatterError, Scattering, debye, layered,
-    lorenz_mie, rays, t_matrix,
+    DebyeTerms, RayDiffraction, RayRequest, Request, ScatterError, Scattering, debye, facets,
+    layered, lorenz_mie, rays, t_matrix,
 };
-use crate::plan::{Engine, Plan};
-use crate::scene::{Diffraction, Orders, Orientation, Scene};
+use crate::plan::{Engine, Plan, PlanError, stand};
+use crate::scene::{Diffraction, Orders, Orientation, Particle, Scene};
 use std::f64::consts::TAU;
 
 /// What a scene's one particle does to light of one wavelength (metres) at scattering angles and one azimuth
@@ -31,7 +31,9 @@ pub fn of_scene(
 ) -> Result<(Scattering, Engine), ScatterError> {
     let several = !scene.modes.is_empty()
         || scene.size_distribution.as_ref().is_some_and(|sizes| sizes.single().is_none());
-    if several || scene.orientation == Orientation::Random || scene.canting > 0.0 {
+    let crystal = matches!(scene.particle, Particle::Crystal { .. });
+    let moves = scene.orientation == Orientation::Random || scene.canting > 0.0;
+    if several || moves || crystal && scene.orientation != Orientation::Fixed {
         return Err(ScatterError::Several);
     }
     let one = Scene { wavelengths: vec![wavelength], ..scene.clone() };
@@ -57,6 +59,12 @@ pub fn of_scene(
         },
         Engine::Debye => debye(&request, &DebyeTerms { orders, diffraction: false })?,
         Engine::TMatrix => t_matrix(&request, &plan.shape)?,
+        Engine::Facets => {
+            let body = plan.crystal.as_ref().ok_or(PlanError::FacetsNeedCrystal)?;
+            let (settings, error) =
+                (plan.beam_settings(), plan.error_of_facets(request.size_parameter));
+            facets(&request, body, stand(&one), one.sun_elevation, settings, error)
+        }
         Engine::Meridians | Engine::Patches => {
             let diffraction = match scene.diffraction {
                 Diffraction::None => RayDiffraction::None,

@@ -67,6 +67,30 @@ pub enum ShapeName {
     Spheroid,
     /// A falling raindrop.
     Raindrop,
+    /// A hexagonal column or plate.
+    HexagonalColumn,
+    /// A prism over a triangle.
+    TriangularPrism,
+    /// A cuboid on a square base.
+    Cuboid,
+    /// A regular octahedron.
+    Octahedron,
+    /// A hexagonal column with two pyramids.
+    PyramidalCrystal,
+    /// A hexagonal column with one.
+    Bullet,
+}
+
+impl ShapeName {
+    /// Whether it has flat facets.
+    pub fn is_crystal(self) -> bool {
+        !matches!(self, ShapeName::Sphere | ShapeName::Spheroid | ShapeName::Raindrop)
+    }
+
+    /// Whether an angle goes with it.
+    pub(super) fn has_apex(self) -> bool {
+        matches!(self, ShapeName::TriangularPrism | ShapeName::PyramidalCrystal | ShapeName::Bullet)
+    }
 }
 
 impl Named for ShapeName {
@@ -74,48 +98,22 @@ impl Named for ShapeName {
         ("sphere", ShapeName::Sphere),
         ("spheroid", ShapeName::Spheroid),
         ("raindrop", ShapeName::Raindrop),
+        ("hexagonal-column", ShapeName::HexagonalColumn),
+        ("triangular-prism", ShapeName::TriangularPrism),
+        ("cuboid", ShapeName::Cuboid),
+        ("octahedron", ShapeName::Octahedron),
+        ("pyramidal-crystal", ShapeName::PyramidalCrystal),
+        ("bullet", ShapeName::Bullet),
     ];
 }
 
 impl Named for Orientation {
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("upright", Orientation::Upright), ("random", Orientation::Random)];
-}
-
-/// An orientation in a scene file: its word, or a table with `kind = "…"`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OrientationKey(pub Orientation);
-
-impl OrientationKey {
-    /// From a word, as in a flag.
-    ///
-    /// # Errors
-    /// A word that is not known, with those that are.
-    pub fn parse(word: &str) -> Result<Self, String> {
-        Orientation::from_name(word).map(Self)
-    }
-}
-
-impl Serialize for OrientationKey {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.0.name())
-    }
-}
-
-impl<'de> Deserialize<'de> for OrientationKey {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let written = toml::Value::deserialize(deserializer)?;
-        let word = match &written {
-            toml::Value::Table(table) if table.len() == 1 => table.get("kind"),
-            other => Some(other),
-        };
-        let word = word.and_then(toml::Value::as_str).ok_or_else(|| {
-            D::Error::custom(format!(
-                "{written} is no orientation; accepted: \"upright\", \"random\", {{ kind = \"random\" }}"
-            ))
-        })?;
-        Self::parse(word).map_err(D::Error::custom)
-    }
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("upright", Orientation::Upright),
+        ("random", Orientation::Random),
+        ("horizontal", Orientation::Horizontal),
+        ("fixed", Orientation::Fixed),
+    ];
 }
 
 impl Named for AxisRatioLaw {
@@ -229,6 +227,7 @@ impl Named for Method {
         ("mie", Method::Mie),
         ("debye", Method::Debye),
         ("tmatrix", Method::TMatrix),
+        ("facets", Method::Facets),
     ];
 }
 

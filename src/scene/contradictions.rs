@@ -8,8 +8,89 @@ use crate::phase_table::ForwardPeak;
 use crate::size_distribution::SizeDistribution;
 
 impl Scene {
+    /// Facets have a method of their own, and not every switch of the others.
+    pub(super) fn check_crystal(&self) -> Result<(), SceneError> {
+        let Particle::Crystal { crystal, .. } = &self.particle else {
+            if self.method == Method::Facets {
+                let accepted =
+                    "\"facets\" is for crystals and prisms, such as shape = \"hexagonal-column\"";
+                return Err(SceneError::invalid("model.method", "facets", accepted));
+            }
+            if matches!(self.orientation, Orientation::Horizontal | Orientation::Fixed) {
+                let accepted =
+                    "drops and spheroids stand \"upright\" or at \"random\"; crystals any way";
+                let word = self.orientation.name();
+                return Err(SceneError::invalid("particle.orientation", word, accepted));
+            }
+            if let Some(count) = self.orientations {
+                let accepted =
+                    "a number of orientations is for crystals; the T-matrix has all of them";
+                let value = format!("{{ count = {count} }}");
+                return Err(SceneError::invalid("particle.orientation", value, accepted));
+            }
+            return Ok(());
+        };
+        let refuse = |key: &str, value: String, accepted: &str| {
+            let value = format!("{value} of a {}", crystal.name());
+            Err(SceneError::invalid(key, value, accepted))
+        };
+        if !matches!(self.method, Method::Auto | Method::Facets) {
+            let accepted = "crystals and prisms take \"facets\" or \"auto\"";
+            return refuse("model.method", self.method.name().into(), accepted);
+        }
+        if self.size_distribution.is_some() {
+            let accepted = "one size: radius_um, radius_mm or diameter_mm; several kinds in [[particles]] add up";
+            return refuse("particle.size_distribution", "many sizes".into(), accepted);
+        }
+        if let Orders::List(list) = &self.orders {
+            let accepted = "facets have all orders at once: \"auto\"";
+            return refuse("model.orders", format!("{list:?}"), accepted);
+        }
+        if self.interference != Interference::Waves {
+            let accepted = "beams of facets add as waves: true";
+            return refuse("model.interference", self.interference.name().into(), accepted);
+        }
+        if self.diffraction != Diffraction::Airy {
+            let accepted = "beams of facets have their own diffraction; leave it out";
+            return refuse("model.diffraction", self.diffraction.name().into(), accepted);
+        }
+        if let Some(rays) = self.rays_across {
+            return refuse(
+                "model.rays_across",
+                rays.to_string(),
+                "facets have no rays; leave it out",
+            );
+        }
+        if self.forward_peak == ForwardPeak::Separate {
+            let accepted = "reflection, transmission and diffraction of facets are one sum: \"cell_average\" or \"point\"";
+            return refuse("table.forward_peak", self.forward_peak.name().into(), accepted);
+        }
+        let tilts = matches!(self.orientation, Orientation::Upright | Orientation::Horizontal);
+        if self.canting > 0.0 && !tilts {
+            let accepted = "tilts go with \"upright\" and \"horizontal\"";
+            let value = format!("with orientation = \"{}\"", self.orientation.name());
+            return refuse("particle.canting", value, accepted);
+        }
+        if self.bandwidth > 0.0 || self.sun_disc != SunDisc::None {
+            let key = if self.bandwidth > 0.0 { "light.bandwidth_nm" } else { "light.sun_disc" };
+            return refuse(
+                key,
+                "a mean".into(),
+                "means over bands and the sun's disc are for spheres",
+            );
+        }
+        if self.medium.radial().is_some() {
+            let accepted = "one index inside: layers, profiles and films are for spheres";
+            return refuse("particle.medium", "what varies inside".into(), accepted);
+        }
+        Ok(())
+    }
+
     /// The exact series know only spheres, and not every switch of the ray method.
     pub(super) fn check_method(&self, alone: bool) -> Result<(), SceneError> {
+        if matches!(self.particle, Particle::Crystal { .. }) {
+            return Ok(());
+        }
         let series = matches!(self.method, Method::Mie | Method::Debye);
         if series && !matches!(self.particle, Particle::Sphere { .. }) {
             let accepted = "the exact series are for spheres; other shapes take \"rays\", \"tmatrix\" or \"auto\"";
@@ -75,6 +156,9 @@ impl Scene {
 
     /// Means over sizes, bands and the sun's disc are taken of the exact series.
     pub(super) fn check_means(&self) -> Result<(), SceneError> {
+        if matches!(self.particle, Particle::Crystal { .. }) {
+            return Ok(());
+        }
         let sphere = matches!(self.particle, Particle::Sphere { .. });
         let exact = sphere && !matches!(self.method, Method::Rays | Method::TMatrix);
         let many = self.size_distribution.is_some();

@@ -4,10 +4,11 @@
 //! list of what is known. Every key is optional, because a flag may give what the file does not;
 //! [`SceneFile::overridden_by`] lays flags over a file.
 
-use super::choice::{AxisRatioKey, CantingKeys, Choice, OrientationKey, ShapeName};
+use super::choice::{AxisRatioKey, CantingKeys, Choice, ShapeName};
 #[cfg(feature = "cli")]
 use super::flags::{coating, index, medium, outside, word};
 use super::grid::Grid;
+use super::orientation::OrientationKey;
 use super::sizes::SizeKeys;
 use super::{Diffraction, Interference, Method, Orders, SunDisc};
 use crate::medium::{FilmSpec, MediumSpec};
@@ -106,11 +107,13 @@ section! {
         /// Many sizes: kind = "gamma", effective_radius_um = 10, effective_variance = 0.1
         size_distribution: SizeKeys [value_name = "TABLE",
             conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"]]
-        /// Vertical over horizontal diameter of a spheroid
+        /// Vertical over horizontal diameter of a spheroid; length over width of a crystal
         axis_ratio: AxisRatioKey [value_name = "RATIO|LAW", allow_negative_numbers = true]
-        /// Tilts of the axis: deviation_deg = 7 (drops by rays)
+        /// Wedge of a triangular prism, or angle between opposite facets of a crystal's pyramid
+        apex_deg: f64 [value_name = "DEG", allow_negative_numbers = true]
+        /// Tilts of the axis: deviation_deg = 7 (drops by rays, crystals)
         canting: CantingKeys [value_name = "DEG", allow_negative_numbers = true]
-        /// Axis upright, or at random
+        /// Axis upright, random, horizontal, or kind = "fixed", zenith_deg = 90
         orientation: OrientationKey [value_parser = OrientationKey::parse]
         /// Shape model of a raindrop
         model: Choice<RaindropModel> [value_parser = word::<RaindropModel>()]
@@ -180,7 +183,7 @@ section! {
 section! {
     /// `[model]`: how it is computed.
     ModelKeys, "Model" {
-        /// Rays, an exact series for spheres, the T-matrix, or whichever suits
+        /// Rays, an exact series for spheres, the T-matrix, facets of crystals, or whichever suits
         method: Choice<Method> [value_parser = word::<Method>()]
         /// Add rays with their phases: all, those of one order, or none
         interference: Interference [value_name = "true|false|within-orders"]
@@ -277,7 +280,7 @@ impl ParticleKeys {
             self.size_distribution = None;
         }
         if flags.shape.is_some() && flags.shape != self.shape {
-            (self.axis_ratio, self.model) = (None, None);
+            (self.axis_ratio, self.model, self.apex_deg) = (None, None, None);
         }
         if flags.medium.is_some() {
             (self.temperature_c, self.density_kg_m3) = (None, None);
@@ -299,8 +302,8 @@ impl LightKeys {
 impl ModelKeys {
     fn overridden_by(mut self, flags: &ModelKeys) -> ModelKeys {
         // Another method replaces what goes with rays alone.
-        let series =
-            [Method::Mie, Method::Debye, Method::TMatrix].map(|method| Some(Choice(method)));
+        let series = [Method::Mie, Method::Debye, Method::TMatrix, Method::Facets]
+            .map(|method| Some(Choice(method)));
         if series.contains(&flags.method) && flags.method != self.method {
             (self.interference, self.diffraction, self.rays_across) = (None, None, None);
         }

@@ -18,6 +18,7 @@ mod flags;
 mod grid;
 mod kind;
 mod modes;
+mod orientation;
 mod particle;
 mod range;
 mod read;
@@ -28,7 +29,7 @@ mod sizes;
 mod tests;
 mod validate;
 
-pub use choice::{AxisRatioKey, CantingKeys, Choice, Named, OrientationKey, ShapeName};
+pub use choice::{AxisRatioKey, CantingKeys, Choice, Named, ShapeName};
 // Batches use them, and batches need HDF5.
 pub use crate::math::bytes::human_bytes;
 #[cfg(feature = "hdf5")]
@@ -38,6 +39,7 @@ pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFi
 pub use grid::Grid;
 pub use kind::SceneKind;
 pub use modes::{Amount, Mode};
+pub use orientation::OrientationKey;
 pub use range::{Range, Third};
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
@@ -48,7 +50,7 @@ pub use sizes::SizeKeys;
 
 use crate::medium::{Density, Medium};
 use crate::phase_table::{ForwardPeak, Quantity};
-use crate::shape::{AxisRatioLaw, OwnBody, RaindropModel};
+use crate::shape::{AxisRatioLaw, Crystal, OwnBody, RaindropModel};
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
@@ -77,6 +79,13 @@ pub enum Particle {
         /// Who gives its shape.
         model: RaindropModel,
     },
+    /// A crystal or prism of flat facets.
+    Crystal {
+        /// Metres.
+        radius: f64,
+        /// Its proportions.
+        crystal: Crystal,
+    },
     /// A body that no key of a scene file names: see [`Scene::with_own_body`].
     Own {
         /// Metres.
@@ -89,10 +98,14 @@ pub enum Particle {
 /// How the axes of particles stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
-    /// Vertically.
+    /// Vertically; crystals are turned about it at random.
     Upright,
     /// In all directions alike.
     Random,
+    /// Horizontally, in all azimuths alike (crystals).
+    Horizontal,
+    /// As [`Scene::fixed_angles`] says (crystals).
+    Fixed,
 }
 
 /// How scattering is computed.
@@ -108,6 +121,8 @@ pub enum Method {
     Debye,
     /// The T-matrix, on bodies of revolution.
     TMatrix,
+    /// Beams of flat facets, on crystals and prisms.
+    Facets,
 }
 
 /// Which waves add as amplitudes; the others add as powers.
@@ -166,6 +181,11 @@ pub struct Scene {
     pub amount: Option<Amount>,
     /// How its axis stands.
     pub orientation: Orientation,
+    /// Where that is fixed: the axis from the vertical, the azimuth of its tilt (0: away from the sun), and a
+    /// turn about the axis; radians.
+    pub fixed_angles: [f64; 3],
+    /// Orientations in a mean; `None`: chosen.
+    pub orientations: Option<u32>,
     /// Axis ratio of a spheroid by its size, in place of that of the particle above.
     pub axis_ratio_law: Option<AxisRatioLaw>,
     /// Standard deviation of its axis about the vertical, in each of two planes, radians; 0: upright.

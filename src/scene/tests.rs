@@ -60,13 +60,14 @@ fn known_keys_are_those_of_the_structs() {
     let full = SceneFile {
         particle: ParticleKeys {
             shape: Some(Choice(ShapeName::Sphere)),
+            apex_deg: Some(60.0),
             radius_mm: Some(1.0),
             radius_um: Some(1.0),
             diameter_mm: Some(1.0),
             size_distribution: Some("kind = 'delta', radius_um = 1".parse().unwrap()),
             axis_ratio: Some(AxisRatioKey::Number(1.0)),
             canting: Some(CantingKeys { deviation_deg: 7.0 }),
-            orientation: Some(OrientationKey(Orientation::Random)),
+            orientation: Some(OrientationKey::from(Orientation::Random)),
             model: Some(Choice(RaindropModel::BeardChuang1987)),
             temperature_c: Some(20.0),
             density_kg_m3: Some(1000.0),

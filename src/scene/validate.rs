@@ -50,6 +50,8 @@ impl SceneFile {
             density,
             medium,
             orientation,
+            fixed_angles,
+            orientations,
             axis_ratio_law,
             canting,
             ..
@@ -60,6 +62,8 @@ impl SceneFile {
             density,
             medium,
             orientation,
+            fixed_angles,
+            orientations,
             axis_ratio_law,
             canting,
             amount: amount(&resolved.amount)?,
@@ -83,6 +87,7 @@ impl SceneFile {
             toml: resolved.to_toml(),
         };
         for part in scene.parts() {
+            part.check_crystal()?;
             part.check_method(scene.modes.is_empty())?;
             part.check_means()?;
             part.check_radial()?;

@@ -14,6 +14,11 @@ pub enum ShapeError {
     RadiusOutsideModel { radius_mm: f64, model: &'static str, from_mm: f64, to_mm: f64 },
     #[error("axis_ratio = {0}: a number from 0.1 to 10 (vertical over horizontal) is accepted")]
     AxisRatio(f64),
+    #[error(
+        "shape \"{0}\": it has facets, which no ray method of smooth bodies follows; tables take it with \
+         method = \"facets\""
+    )]
+    Faceted(&'static str),
     #[error("shape \"{name}\": {fault}; accepted: {accepted}")]
     OwnBody { name: String, fault: String, accepted: &'static str },
 }

@@ -20,6 +20,7 @@
 //! ```
 
 mod body;
+mod crystal;
 mod error;
 mod level;
 mod line;
@@ -34,6 +35,7 @@ mod tangent;
 
 pub(crate) use body::Body;
 pub use body::Shape;
+pub use crystal::Crystal;
 pub use error::ShapeError;
 pub use own::{Outline, OwnBody};
 pub use raindrop::{AxisRatioLaw, RaindropModel};

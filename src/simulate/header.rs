@@ -2,9 +2,10 @@
 //! over.
 
 use super::error::SimulateError;
+use crate::facets::mean::mean_shadow;
 use crate::farfield::patches::gaussian_filter;
 use crate::phase_table::{Averaging, Axes, Bodies, DiscOfSun, TableHeader};
-use crate::plan::{Engine, Plan, Symmetry, shape};
+use crate::plan::{Engine, Plan, Symmetry, shape, stand};
 use crate::population;
 use crate::scene::{Diffraction, Particle, Scene, SunDisc};
 use std::collections::BTreeSet;
@@ -41,6 +42,7 @@ pub(super) fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> Tab
                 Engine::LorenzMie => "mie",
                 Engine::Debye => "debye",
                 Engine::TMatrix => "tmatrix",
+                Engine::Facets => "facets",
             };
             word.into()
         }),
@@ -49,6 +51,7 @@ pub(super) fn header_of(scene: &Scene, plan: &Plan, command_line: String) -> Tab
                 Particle::Sphere { .. } => "sphere",
                 Particle::Spheroid { .. } => "spheroid",
                 Particle::Raindrop { .. } => "raindrop",
+                Particle::Crystal { crystal, .. } => crystal.name(),
                 Particle::Own { body, .. } => body.name(),
             };
             word.into()
@@ -79,6 +82,9 @@ const SHADOWS: usize = 16;
 
 /// Area of the shadow of a kind of particles, in units of the mean squared radius.
 fn shadow(scene: &Scene, plan: &Plan) -> f64 {
+    if let Some(body) = &plan.crystal {
+        return mean_shadow(body, stand(scene), scene.sun_elevation, plan.orientations(scene)[0]);
+    }
     let many = scene.size_distribution.as_ref().filter(|sizes| sizes.single().is_none());
     let Some(sizes) = many.filter(|_| !plan.shape.is_sphere()) else {
         return plan.shape.silhouette().area();
@@ -98,7 +104,8 @@ fn shadow(scene: &Scene, plan: &Plan) -> f64 {
 
 /// What a scene averages over.
 fn averaging(scene: &Scene, plan: &Plan) -> Averaging {
-    let filtered = !plan.engine.is_exact() && scene.diffraction == Diffraction::Gaussian;
+    let rays = matches!(plan.engine, Engine::Meridians | Engine::Patches);
+    let filtered = rays && scene.diffraction == Diffraction::Gaussian;
     Averaging {
         sun_disc: match scene.sun_disc {
             SunDisc::None => DiscOfSun::None,

@@ -7,6 +7,7 @@ mod absorption_against_mie;
 mod color_reference;
 mod dyed_drop;
 mod error_estimate;
+mod facets;
 mod farfield_complex_wavefront;
 mod farfield_huygens;
 mod farfield_orders;

@@ -153,6 +153,8 @@ const LEAST_TRIAL: f64 = 0.3;
 /// Azimuths of the two trials where all are not tried: as many as are interpolated from traced ones and
 /// not traced themselves (more than 40 with their opposites), and some more.
 const TRIED: [usize; 2] = [24, 36];
+/// Orientations of a crystal that are tried.
+const TRIED_ORIENTATIONS: u32 = 16;
 
 /// Some wavelengths, computed at some azimuths.
 struct Trials {
@@ -190,6 +192,9 @@ impl Trials {
     /// wavelength tried first.
     fn methods(&self, scene: &Scene, plan: &Plan, computed: &[f64]) -> Result<Vec<PlannedRange>> {
         let mut methods = plan.methods(scene)?;
+        if plan.engine == Engine::Facets {
+            return Ok(methods);
+        }
         let tried = if computed.len() <= TRIED[1] { computed } else { &some(computed, TRIED[1]) };
         for planned in &mut methods {
             let range = planned.range.first..planned.range.first + planned.range.count;
@@ -226,6 +231,16 @@ fn try_slab(
         let slab = simulate::slab(&probe, plan, wavelength)?;
         Ok((watch.seconds(), slab))
     };
+    if plan.engine == Engine::Facets {
+        // time goes with the number of orientations
+        let all: u32 = plan.orientations(scene).iter().product();
+        let few = all.min(TRIED_ORIENTATIONS);
+        let probe = Scene { orientations: Some(few), ..scene.clone() };
+        let watch = CpuTime::start();
+        let slab = simulate::slab(&probe, plan, wavelength)?;
+        let seconds = watch.seconds() * f64::from(all) / f64::from(few);
+        return Ok((seconds, seconds, slab));
+    }
     if plan.engine.is_exact() && plan.engine != Engine::TMatrix || computed.len() <= TRIED[1] {
         let (seconds, slab) = time(scene.phi.clone())?;
         return Ok((seconds, seconds, slab));

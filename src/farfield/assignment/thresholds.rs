@@ -46,6 +46,13 @@ pub struct Thresholds {
     /// Beyond this `k/n` the wave inside is too inhomogeneous for real rays: measured against Lorenz–Mie.
     pub largest_k_over_n: f64,
 
+    /// Least size parameter of a body of facets, and least half width (between parallel planes, over the reduced
+    /// wavelength): below, fields on facets are no plane waves cut off at edges.
+    pub least_facet_sizes: [f64; 2],
+    /// Relative error of intensities (root mean square over bands, one orientation) times the size parameter:
+    /// measured against discrete dipoles for a hexagonal column (validation/facets.md).
+    pub error_of_facets: f64,
+
     /// Highest order that `orders = "auto"` goes to, and the least last order that it takes.
     pub highest_order: u32,
     /// The least last order that `"auto"` takes.
@@ -202,6 +209,8 @@ impl Thresholds {
         least_phase_shift: 5.0,
         doubtful_phase_shift: 20.0,
         largest_k_over_n: 0.03,
+        least_facet_sizes: [20.0, 5.0],
+        error_of_facets: 6.0,
         highest_order: 24,
         least_last_order: 3,
         left_out_per_tolerance: 0.035,

@@ -33,6 +33,10 @@ pub struct Mode {
     pub size_distribution: Option<SizeDistribution>,
     /// How its axis stands.
     pub orientation: Orientation,
+    /// Where that is fixed: zenith and azimuth of the axis, turn about it, radians.
+    pub fixed_angles: [f64; 3],
+    /// Orientations in a mean; `None`: chosen.
+    pub orientations: Option<u32>,
     /// Axis ratio of a spheroid by its size.
     pub axis_ratio_law: Option<AxisRatioLaw>,
     /// Standard deviation of its axis about the vertical, in each of two planes, radians; 0: upright.
@@ -53,12 +57,16 @@ impl Mode {
         let size_distribution = size_distribution(keys, folder)?;
         let particle = particle_of(keys, size_distribution.as_ref())?;
         let radius = particle.radius();
+        let stand = keys.orientation.map_or_else(|| Ok(Default::default()), |key| key.checked());
+        let (fixed_angles, orientations) = stand?;
         let smallest = size_distribution.as_ref().map_or(radius, |sizes| sizes.bounds().0);
         Ok(Self {
             number_share: 1.0,
             particle,
             size_distribution,
-            orientation: keys.orientation.map_or(Orientation::Upright, |key| key.0),
+            orientation: keys.orientation.map_or(Orientation::Upright, |key| key.kind),
+            fixed_angles,
+            orientations,
             axis_ratio_law: match keys.axis_ratio {
                 Some(AxisRatioKey::Law(law)) => Some(law),
                 _ => None,
@@ -250,6 +258,8 @@ impl Scene {
             particle: mode.particle.clone(),
             size_distribution: mode.size_distribution.clone(),
             orientation: mode.orientation,
+            fixed_angles: mode.fixed_angles,
+            orientations: mode.orientations,
             axis_ratio_law: mode.axis_ratio_law,
             canting: mode.canting,
             medium: mode.medium.clone(),
@@ -279,6 +289,7 @@ impl Scene {
                 Particle::Spheroid { radius, axis_ratio: law.unwrap_or(*axis_ratio) }
             }
             Particle::Raindrop { model, .. } => Particle::Raindrop { radius, model: *model },
+            Particle::Crystal { crystal, .. } => Particle::Crystal { radius, crystal: *crystal },
             Particle::Own { body, .. } => Particle::Own { radius, body: body.clone() },
         }
     }
@@ -291,6 +302,7 @@ impl Particle {
             Particle::Sphere { radius }
             | Particle::Spheroid { radius, .. }
             | Particle::Raindrop { radius, .. }
+            | Particle::Crystal { radius, .. }
             | Particle::Own { radius, .. } => *radius,
         }
     }

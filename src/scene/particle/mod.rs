@@ -7,19 +7,22 @@ use crate::scene::choice::{AxisRatioKey, CantingKeys, Choice, Named, ShapeName, 
 use crate::scene::error::SceneError;
 use crate::scene::file::ParticleKeys;
 use crate::scene::{Method, Particle};
-use crate::shape::RaindropModel;
+use crate::shape::{Crystal, RaindropModel};
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
 
 /// Axis ratios beyond these are needles and discs, for which neither rays nor drops are meant.
 const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
+/// The same of crystals.
+const CRYSTAL_RATIOS: std::ops::RangeInclusive<f64> = 0.02..=50.0;
 /// Radii of spheres and spheroids, millimetres: from a nanometre to a centimetre.
 const RADII_MM: std::ops::RangeInclusive<f64> = 1e-6..=10.0;
 
-/// Whether rays serve a particle: any that is no sphere, or what is asked for.
+/// Whether rays serve a particle: any that is no sphere and has no facets, or what is asked for.
 pub(in crate::scene) fn is_by_rays(keys: &ParticleKeys, method: Method) -> bool {
     let sphere = keys.shape == Some(Choice(ShapeName::Sphere));
-    method == Method::Rays || method == Method::Auto && !sphere
+    let crystal = keys.shape.is_some_and(|shape| shape.0.is_crystal());
+    method == Method::Rays || method == Method::Auto && !sphere && !crystal
 }
 
 /// Shape, size and what goes with the shape.
@@ -32,24 +35,45 @@ pub(in crate::scene) fn particle_of(
         Some(sizes) => Ok(sizes.effective_radius()),
         None => radius(keys, accept),
     };
-    if let (Some(ratio), true) = (keys.axis_ratio, shape != ShapeName::Spheroid) {
-        let accepted = format!("only a spheroid has an axis ratio; the shape is {}", shape.name());
+    let proportioned = shape == ShapeName::Spheroid || shape.is_crystal();
+    if let (Some(ratio), true) = (keys.axis_ratio, !proportioned || shape == ShapeName::Octahedron)
+    {
+        let accepted = format!(
+            "only a spheroid or a crystal with a length has an axis ratio; the shape is {}",
+            shape.name()
+        );
         return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
     }
     if let (Some(model), true) = (keys.model, shape != ShapeName::Raindrop) {
         let accepted = format!("only a raindrop has a shape model; the shape is {}", shape.name());
         return Err(SceneError::invalid("particle.model", model.0.name(), accepted));
     }
+    if let (Some(apex), false) = (keys.apex_deg, shape.has_apex()) {
+        let accepted = format!(
+            "only a triangular-prism, a pyramidal-crystal and a bullet have an apex; the shape is {}",
+            shape.name()
+        );
+        return Err(SceneError::invalid("particle.apex_deg", apex, accepted));
+    }
     match shape {
+        crystal if crystal.is_crystal() => Ok(Particle::Crystal {
+            radius: radius(&plain_radius)?,
+            crystal: self::crystal(crystal, keys)?,
+        }),
         ShapeName::Sphere => Ok(Particle::Sphere { radius: radius(&plain_radius)? }),
         ShapeName::Spheroid => Ok(Particle::Spheroid {
             radius: radius(&plain_radius)?,
             axis_ratio: match keys.axis_ratio {
                 Some(AxisRatioKey::Law(law)) => law.axis_ratio(2.0 * radius(&plain_radius)?),
-                other => axis_ratio(other)?,
+                other => axis_ratio_of(
+                    other,
+                    "vertical over horizontal diameter of the spheroid",
+                    AXIS_RATIOS,
+                )?,
             },
         }),
-        ShapeName::Raindrop => {
+        // the last kind that is no crystal
+        _ => {
             let model = chosen(keys.model, "particle.model")?;
             if let Some((_, to)) = sizes.map(SizeDistribution::bounds) {
                 raindrop_limit(model, to * 1e3).map_err(|accepted| sizes_error(keys, accepted))?;
@@ -58,6 +82,44 @@ pub(in crate::scene) fn particle_of(
             Ok(Particle::Raindrop { radius, model })
         }
     }
+}
+
+/// Angles of wedges and tips, degrees.
+const APEXES: std::ops::RangeInclusive<f64> = 2.0..=178.0;
+
+/// A crystal's proportions.
+fn crystal(shape: ShapeName, keys: &ParticleKeys) -> Result<Crystal, SceneError> {
+    let axis_ratio = || match keys.axis_ratio {
+        Some(AxisRatioKey::Law(law)) => {
+            let accepted = "a law is for drops; a crystal takes a number, length over width";
+            Err(SceneError::invalid("particle.axis_ratio", law.name(), accepted))
+        }
+        other => axis_ratio_of(other, "length over width of the crystal", CRYSTAL_RATIOS),
+    };
+    let apex = || -> Result<f64, SceneError> {
+        let accepted = format!(
+            "angle of the wedge, or between opposite facets of a pyramid, {} to {} degrees",
+            APEXES.start(),
+            APEXES.end()
+        );
+        match keys.apex_deg {
+            None => Err(SceneError::missing("particle.apex_deg", accepted)),
+            Some(apex) if APEXES.contains(&apex) => Ok(apex.to_radians()),
+            Some(apex) => Err(SceneError::invalid("particle.apex_deg", apex, accepted)),
+        }
+    };
+    Ok(match shape {
+        ShapeName::TriangularPrism => {
+            Crystal::TriangularPrism { axis_ratio: axis_ratio()?, apex: apex()? }
+        }
+        ShapeName::Cuboid => Crystal::Cuboid { axis_ratio: axis_ratio()? },
+        ShapeName::Octahedron => Crystal::Octahedron,
+        ShapeName::PyramidalCrystal => {
+            Crystal::PyramidalCrystal { axis_ratio: axis_ratio()?, apex: apex()? }
+        }
+        ShapeName::Bullet => Crystal::Bullet { axis_ratio: axis_ratio()?, apex: apex()? },
+        _ => Crystal::HexagonalColumn { axis_ratio: axis_ratio()? },
+    })
 }
 
 /// What is wrong with a distribution of sizes.
@@ -169,16 +231,16 @@ pub(in crate::scene) fn canting(keys: &ParticleKeys) -> Result<f64, SceneError> 
     Ok(if sphere { 0.0 } else { deviation_deg.to_radians() })
 }
 
-fn axis_ratio(ratio: Option<AxisRatioKey>) -> Result<f64, SceneError> {
+fn axis_ratio_of(
+    ratio: Option<AxisRatioKey>,
+    meaning: &str,
+    ratios: std::ops::RangeInclusive<f64>,
+) -> Result<f64, SceneError> {
     const KEY: &str = "particle.axis_ratio";
-    let accepted = format!(
-        "vertical over horizontal diameter of the spheroid, {} to {}",
-        AXIS_RATIOS.start(),
-        AXIS_RATIOS.end()
-    );
+    let accepted = format!("{meaning}, {} to {}", ratios.start(), ratios.end());
     match ratio {
         None => Err(SceneError::missing(KEY, accepted)),
-        Some(AxisRatioKey::Number(ratio)) if AXIS_RATIOS.contains(&ratio) => Ok(ratio),
+        Some(AxisRatioKey::Number(ratio)) if ratios.contains(&ratio) => Ok(ratio),
         Some(ratio) => Err(SceneError::invalid(KEY, ratio, accepted)),
     }
 }

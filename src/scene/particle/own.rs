@@ -29,8 +29,15 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn with_own_body(mut self, body: OwnBody, radius: f64) -> Scene {
-        let struck =
-            ["axis_ratio", "canting", "model", "radius_um", "diameter_mm", "size_distribution"];
+        let struck = [
+            "axis_ratio",
+            "apex_deg",
+            "canting",
+            "model",
+            "radius_um",
+            "diameter_mm",
+            "size_distribution",
+        ];
         let keys = [("shape", body.name().into()), ("radius_mm", (radius * 1e3).into())];
         self.note_particle(&struck, keys);
         self.size_distribution = None;

@@ -57,7 +57,7 @@ pub(super) fn stretches(scene: &Scene, sizes: &SizeDistribution) -> Vec<((f64, f
         Particle::Sphere { .. } => Some(f64::INFINITY),
         Particle::Raindrop { model, .. } => model.sphere_up_to(),
         Particle::Spheroid { .. } => scene.axis_ratio_law.and_then(AxisRatioLaw::sphere_up_to),
-        Particle::Own { .. } => None,
+        Particle::Own { .. } | Particle::Crystal { .. } => None,
     };
     match kink {
         None => vec![((from, to), false)],
