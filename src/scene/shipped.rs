@@ -25,7 +25,7 @@ macro_rules! shipped {
 
 shipped! {
     "": "raindrop" "rain" "drizzle" "fog" "cloud_c1" "cloud_gamma" "spray" "aerosol_continental_polluted"
-        "large_drop" "spheroid" "sphere_mie" "small_drop_tmatrix" "dyed_drop" "paper_sadeghi_2012";
+        "large_drop" "spheroid" "sphere_mie" "small_drop_tmatrix" "dyed_drop" "ice_column_halo" "prism" "paper_sadeghi_2012";
     "bows/": "every_key" "double" "supernumerary" "cloud" "red" "twinned" "twinned_05" "filter_horizontal" "filter_vertical"
         "size_04_raindrop" "size_04_sphere" "size_06_raindrop" "size_06_sphere" "size_08_raindrop"
         "size_08_sphere" "sun_00" "sun_20" "sun_40" "sun_60";

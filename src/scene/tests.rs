@@ -129,8 +129,8 @@ fn unknown_keys_are_named_with_line_and_suggestion() {
     assert!(message.contains("unknown key `lights` (did you mean `light`?)"), "{message}");
     let message = parse("radius_mm = 0.5\n").unwrap_err().to_string();
     assert!(message.contains("line 1") && message.contains("particle.radius_mm"), "{message}");
-    let message = refused("from = 0, to = 180, count", "from = 0, to = 180, step");
-    assert!(message.contains("line 12") && message.contains("step"), "{message}");
+    let message = refused("from = 0, to = 180, count", "from = 0, to = 180, steps");
+    assert!(message.contains("line 12") && message.contains("steps"), "{message}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Whether corners and facets make a closed convex body; messages name the facet, counted from 1.
 
-use super::{Body, Facet};
+use super::facet::Facet;
 use glam::DVec3;
 use std::collections::HashMap;
 
@@ -95,7 +95,7 @@ fn polygon(vertices: &[DVec3], corners: &[usize], facet: usize) -> Result<(), Bo
     if corners.len() < 3 {
         return Err(BodyError::NoArea { facet });
     }
-    let plane = self::facet(vertices, corners);
+    let plane = Facet::of(vertices, corners);
     if !(plane.area(vertices) > THIN * THIN) {
         return Err(BodyError::NoArea { facet });
     }
@@ -111,30 +111,22 @@ fn polygon(vertices: &[DVec3], corners: &[usize], facet: usize) -> Result<(), Bo
     Ok(())
 }
 
-/// The plane of a loop of corners: its normal is that of the whole loop, so that no single corner decides.
-pub(super) fn facet(vertices: &[DVec3], corners: &[usize]) -> Facet {
-    let count = corners.len();
-    let first = vertices[corners[0]];
-    let normal: DVec3 = (1..count.max(2) - 1)
-        .map(|k| (vertices[corners[k]] - first).cross(vertices[corners[k + 1]] - first))
-        .sum();
-    let normal = normal.normalize_or_zero();
-    let distance = corners.iter().map(|&i| vertices[i].dot(normal)).sum::<f64>() / count as f64;
-    Facet { normal, distance, corners: corners.to_vec() }
-}
-
 /// All corners are behind all facets, and there is a volume.
-pub(super) fn convex(body: &Body) -> Result<(), BodyError> {
-    let volume = body.moments().0;
-    if volume.abs() < THIN * body.surface() {
-        return Err(BodyError::NoThickness { relative: volume.abs() / body.surface() });
+pub(super) fn convex(
+    vertices: &[DVec3],
+    facets: &[Facet],
+    volume: f64,
+    surface: f64,
+) -> Result<(), BodyError> {
+    if volume.abs() < THIN * surface {
+        return Err(BodyError::NoThickness { relative: volume.abs() / surface });
     }
     if volume < 0.0 {
         return Err(BodyError::InsideOut);
     }
-    for (facet, plane) in body.facets.iter().enumerate() {
+    for (facet, plane) in facets.iter().enumerate() {
         let front = |v: &DVec3| v.dot(plane.normal) - plane.distance > FLAT;
-        if let Some(vertex) = body.vertices.iter().position(front) {
+        if let Some(vertex) = vertices.iter().position(front) {
             return Err(BodyError::Hollow { facet: facet + 1, vertex: vertex + 1 });
         }
     }

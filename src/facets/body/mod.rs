@@ -2,22 +2,13 @@
 
 mod check;
 mod crystals;
+mod facet;
 
 pub use check::BodyError;
+pub use facet::Facet;
 
 use glam::DVec3;
 use std::f64::consts::PI;
-
-/// One facet: a plane and the loop of its corners.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Facet {
-    /// Unit vector outwards.
-    pub normal: DVec3,
-    /// Of the plane, from the origin along the normal.
-    pub distance: f64,
-    /// Numbers of its corners, anticlockwise seen from outside.
-    pub corners: Vec<usize>,
-}
 
 /// A closed convex polyhedron about its centre of volume, of the volume of the unit sphere.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,10 +43,10 @@ impl Body {
         }
         let scaled: Vec<DVec3> = vertices.iter().map(|v| (*v - middle) / size).collect();
         check::closed(&scaled, loops)?;
-        let facets = loops.iter().map(|corners| check::facet(&scaled, corners)).collect();
+        let facets = loops.iter().map(|corners| Facet::of(&scaled, corners)).collect();
         let body = Self { vertices: scaled, facets };
-        check::convex(&body)?;
         let (volume, centre) = body.moments();
+        check::convex(&body.vertices, &body.facets, volume, body.surface())?;
         let scale = (4.0 / 3.0 * PI / volume).cbrt();
         Ok(body.mapped(|v| (v - centre) * scale))
     }
@@ -63,7 +54,7 @@ impl Body {
     /// The body with its corners mapped by what keeps its shape.
     fn mapped(self, map: impl Fn(DVec3) -> DVec3) -> Self {
         let vertices: Vec<DVec3> = self.vertices.into_iter().map(map).collect();
-        let facets = self.facets.iter().map(|f| check::facet(&vertices, &f.corners)).collect();
+        let facets = self.facets.iter().map(|f| Facet::of(&vertices, &f.corners)).collect();
         Self { vertices, facets }
     }
 
@@ -130,16 +121,6 @@ impl Body {
             }
         }
         (volume, centre / volume)
-    }
-}
-
-impl Facet {
-    /// Its area.
-    pub fn area(&self, vertices: &[DVec3]) -> f64 {
-        let c = &self.corners;
-        let twice = (1..c.len() - 1)
-            .map(|k| (vertices[c[k]] - vertices[c[0]]).cross(vertices[c[k + 1]] - vertices[c[0]]));
-        0.5 * twice.sum::<DVec3>().dot(self.normal)
     }
 }
 

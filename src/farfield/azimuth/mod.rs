@@ -12,4 +12,3 @@ pub mod order_planes;
 mod places;
 pub mod plane_set;
 pub mod segments;
-mod sparse_rays;

@@ -1,7 +1,6 @@
 //! The segments of a curve: data at their knots.
 
 use super::cut_layout::CutLayout;
-use super::sparse_rays::{KnotRay, rays_at_knots};
 use crate::farfield::branch::knots::{Kind, Knot, PairKnot, Segment, SingleKnot, parabola_slopes};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
@@ -10,6 +9,7 @@ use crate::farfield::deflection::landmark::Landmark;
 use crate::farfield::deflection::pair_values::{PAIR_CHANNELS, PairValues};
 use crate::farfield::deflection::scan::Edge;
 use crate::farfield::deflection::scattering_plane::Node;
+use crate::farfield::deflection::sparse_rays::{KnotRay, rays_at_knots};
 use crate::farfield::impact_integral::near_critical::{self, Stretch};
 use crate::farfield::impact_integral::near_grazing::NearGrazing;
 use crate::farfield::impact_integral::rays::Rays;

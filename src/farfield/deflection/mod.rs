@@ -11,3 +11,4 @@ pub mod pair_values;
 mod root_path;
 pub mod scan;
 pub mod scattering_plane;
+pub(crate) mod sparse_rays;

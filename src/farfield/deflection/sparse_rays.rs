@@ -6,7 +6,7 @@
 //! that errs by about ten times what there is between two, and where it is too much (total reflection inside, caustics), the
 //! rays beside it are traced too.
 
-use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane};
+use super::scattering_plane::{Node, ScatteringPlane};
 use num_complex::Complex64;
 use std::collections::BTreeMap;
 
@@ -26,11 +26,11 @@ const FIELDS: usize = 5;
 
 /// What a knot is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct KnotRay([f64; CHANNELS]);
+pub(crate) struct KnotRay([f64; CHANNELS]);
 
 impl KnotRay {
     /// Of a traced ray.
-    pub(super) fn new(plane: &ScatteringPlane, node: &Node) -> Self {
+    pub(crate) fn new(plane: &ScatteringPlane, node: &Node) -> Self {
         let (_, growing) = plane.frame(node.angle);
         let transfer = plane.transfer(&node.exit, node.angle);
         let mut channels = [0.0; CHANNELS];
@@ -49,22 +49,22 @@ impl KnotRay {
     }
 
     /// Exit angle.
-    pub(super) fn angle(&self) -> f64 {
+    pub(crate) fn angle(&self) -> f64 {
         self.0[0]
     }
 
     /// Path, and its slope by the exit angle.
-    pub(super) fn path(&self) -> [f64; 2] {
+    pub(crate) fn path(&self) -> [f64; 2] {
         [self.0[1], -self.0[2]]
     }
 
     /// Solid angle per area of the wavefront, and its part across the plane.
-    pub(super) fn spreads(&self) -> [f64; 2] {
+    pub(crate) fn spreads(&self) -> [f64; 2] {
         [self.0[3], self.0[4]]
     }
 
     /// S1 … S4 of the transfer.
-    pub(super) fn transfer(&self) -> [Complex64; 4] {
+    pub(crate) fn transfer(&self) -> [Complex64; 4] {
         std::array::from_fn(|e| Complex64::new(self.0[FIELDS + 2 * e], self.0[FIELDS + 2 * e + 1]))
     }
 
@@ -97,7 +97,7 @@ impl KnotRay {
 
 /// The rays at knots `0..=count`, most of them from others that `traced` finds, which it is asked for once each. `None` where one
 /// cannot be found.
-pub(super) fn rays_at_knots(
+pub(crate) fn rays_at_knots(
     count: usize,
     x: f64,
     mut traced: impl FnMut(usize) -> Option<KnotRay>,
