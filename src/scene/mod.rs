@@ -16,11 +16,9 @@ mod file;
 #[cfg(feature = "cli")]
 mod flags;
 mod grid;
-mod kind;
 mod modes;
 mod orientation;
 mod particle;
-mod range;
 mod read;
 mod shipped;
 mod size;
@@ -36,15 +34,13 @@ pub use crate::math::bytes::human_bytes;
 pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
-pub use grid::Grid;
-pub use kind::SceneKind;
+pub use grid::{Grid, Range, Third};
 pub use modes::{Amount, Mode};
 pub use orientation::OrientationKey;
-pub use range::{Range, Third};
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
 pub(crate) use read::{line_at, read_limited};
-pub use shipped::{SHIPPED, Shipped};
+pub use shipped::{SHIPPED, SceneKind, Shipped};
 pub use size::TableSize;
 pub use sizes::SizeKeys;
 

@@ -2,7 +2,7 @@
 
 use super::error::{Place, SceneError, nearest};
 use super::file::{KEYS, MODES, ModeKeys, SceneFile};
-use super::kind::SceneKind;
+use super::shipped::SceneKind;
 use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

@@ -135,6 +135,7 @@ pub(super) fn convex(
 
 #[cfg(test)]
 mod tests {
+    use super::super::Body;
     use super::*;
 
     fn cube() -> (Vec<DVec3>, Vec<Vec<usize>>) {

@@ -1,6 +1,8 @@
 //! The scenes that come with the program, by name.
 
-use super::kind::SceneKind;
+mod kind;
+
+pub use kind::SceneKind;
 
 /// A scene that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +19,7 @@ macro_rules! shipped {
         pub const SHIPPED: &[Shipped] = &[$($(
             Shipped {
                 name: $name,
-                text: include_str!(concat!("../../data/scenes/", $folder, $name, ".toml")),
+                text: include_str!(concat!("../../../data/scenes/", $folder, $name, ".toml")),
             },
         )*)*];
     };

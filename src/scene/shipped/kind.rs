@@ -1,6 +1,6 @@
 //! What a scene is of: a table, or a picture. Who gives one where the other is meant is told so.
 
-use super::file::{KEYS, MODES};
+use crate::scene::file::{KEYS, MODES};
 
 /// What a scene is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,11 @@
 //! `{ from, to, step }`;
 //! and the list of orders.
 
+mod range;
+
+pub use range::{Range, Third};
+
 use super::Orders;
-use super::range::{Range, Third};
 use serde::de::{Error as _, MapAccess, SeqAccess, Visitor, value};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
