@@ -319,9 +319,9 @@ fn add<const FMA: bool, const ABSORBING: bool>(far: &FarField, ways: &[Lanes; 3]
     let mut sums = NOTHING;
     for source in &far.sources {
         let [f_re, f_im] = source.transforms::<FMA, ABSORBING>(far.wavenumber, ways);
-        for polarisation in 0..2 {
+        for (polarisation, sums) in sums.iter_mut().enumerate() {
             let fields = [source.electric[polarisation], source.magnetic[polarisation]];
-            for (sum, field) in sums[polarisation].iter_mut().zip(fields) {
+            for (sum, field) in sums.iter_mut().zip(fields) {
                 for (part, e) in sum.iter_mut().zip([field.x, field.y, field.z]) {
                     for k in 0..LANES {
                         part[0][k] += f_re[k] * e.re - f_im[k] * e.im;

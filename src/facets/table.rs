@@ -247,9 +247,9 @@ fn mirrored(mueller: &mut [f64]) {
     if mueller.len() < 16 {
         return;
     }
-    for element in 0..16 {
+    for (element, value) in mueller.iter_mut().enumerate() {
         if mirror_sign(element) < 0.0 {
-            mueller[element] = 0.0;
+            *value = 0.0;
         }
     }
     let linear = 0.5 * (mueller[1] + mueller[4]);
@@ -340,7 +340,7 @@ mod tests {
         for i in 6..84 {
             let (a, b) = (few.values[(0, i, 0)], many.values[(0, i, 0)]);
             off += f64::from((a / b - 1.0).powi(2));
-            let band = (i + 1) / 2;
+            let band = i.div_ceil(2);
             stated += few.error_by_direction[band].powi(2) - 0.05f64.powi(2);
             bands += 1;
         }

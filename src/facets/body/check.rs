@@ -96,7 +96,8 @@ fn polygon(vertices: &[DVec3], corners: &[usize], facet: usize) -> Result<(), Bo
         return Err(BodyError::NoArea { facet });
     }
     let plane = Facet::of(vertices, corners);
-    if !(plane.area(vertices) > THIN * THIN) {
+    let area = plane.area(vertices);
+    if area.is_nan() || area <= THIN * THIN {
         return Err(BodyError::NoArea { facet });
     }
     let off = |&i: &usize| (vertices[i].dot(plane.normal) - plane.distance).abs() > FLAT;
@@ -157,7 +158,8 @@ mod tests {
     fn faults_are_named() {
         let (corners, loops) = cube();
         assert!(Body::new(&corners, &loops).is_ok());
-        let with = |change: &dyn Fn(&mut Vec<DVec3>, &mut Vec<Vec<usize>>)| {
+        type Change<'c> = &'c dyn Fn(&mut Vec<DVec3>, &mut Vec<Vec<usize>>);
+        let with = |change: Change| {
             let (mut corners, mut loops) = cube();
             change(&mut corners, &mut loops);
             Body::new(&corners, &loops).unwrap_err()
