@@ -799,6 +799,7 @@ mod judge {
         let (Particle::Sphere { radius }
         | Particle::Raindrop { radius, .. }
         | Particle::Spheroid { radius, .. }
+        | Particle::Crystal { radius, .. }
         | Particle::Own { radius, .. }) = scene.particle;
         let (x, m) = (TAU * radius / slab.wavelength, slab.index);
         let shadow = PI * radius * radius;
