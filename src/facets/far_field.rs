@@ -11,15 +11,22 @@
 //!
 //! ```
 //! use gonio::facets::{Body, FarField, beams::{Incidence, Settings, split}};
+//! use num_complex::Complex64;
+//! use std::f64::consts::PI;
 //!
-//! // the optical theorem: a large body takes out twice its shadow, here but for one slab's interference
+//! // the optical theorem: a cube face on takes out what a slab of its thickness does
 //! let cube = Body::cuboid(1.0).unwrap();
-//! let light = Incidence { index: 1.31.into(), size_parameter: 100.0 };
+//! let light = Incidence { index: 1.31.into(), size_parameter: 106.0 };
 //! let beams = split(&cube, &light, &Settings::default());
 //! let far_field = FarField::new(&beams, &light);
 //! let ahead = far_field.amplitudes(&[(0.0, 0.0)])[0];
-//! let extinction = 4.0 * std::f64::consts::PI / 1e4 * ahead.s1.re;
-//! assert!(extinction > 0.5 * beams.shadow && extinction < 4.0 * beams.shadow);
+//! let extinction = 4.0 * PI / light.size_parameter.powi(2) * ahead.s1.re;
+//!
+//! let edge = light.size_parameter * (4.0 * PI / 3.0).cbrt();
+//! let reflected = (0.31f64 / 2.31).powi(2);
+//! let sent_through = (1.0 - reflected) * Complex64::cis(0.31 * edge) / (1.0 - reflected * Complex64::cis(2.62 * edge));
+//! let slab = 2.0 * (1.0 - sent_through.re);
+//! assert!((extinction / beams.shadow - slab).abs() < 0.01 * slab);
 //! ```
 
 use super::beams::{Beams, Incidence, Patch};

@@ -346,7 +346,17 @@ fn the_sun_s_disc_is_never_applied_twice() {
         fs::write(folder.join("p.toml"), format!("[sun]\nelevation_deg = 20\ndisc = {disc}\n"))
             .unwrap();
         let render = [
-            "render", "p.toml", "--table", "t.h5", "-o", "p.png", "--width", "64", "--height", "48",
+            "render",
+            "p.toml",
+            "--table",
+            "t.h5",
+            "-o",
+            "p.png",
+            "--overwrite",
+            "--width",
+            "64",
+            "--height",
+            "48",
         ];
         let (code, told) = gonio(folder, &render);
         assert!(code == 0 && told.contains("the sun's disc is in the table already"), "{told}");

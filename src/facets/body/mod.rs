@@ -25,8 +25,9 @@ impl Body {
     /// use gonio::facets::Body;
     /// use glam::DVec3;
     ///
-    /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-    /// let open = Body::new(&corners, &[vec![0, 2, 1], vec![0, 1, 3], vec![0, 3, 2]]);
+    /// // a pyramid without its base
+    /// let corners = [DVec3::Z, DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y];
+    /// let open = Body::new(&corners, &[vec![0, 1, 2], vec![0, 2, 3], vec![0, 3, 4], vec![0, 4, 1]]);
     /// assert!(open.unwrap_err().to_string().contains("open"));
     /// ```
     ///
