@@ -22,24 +22,20 @@
 //! Several series that want the same angles may share the recurrence too: it is half the work of one.
 //!
 //! Angles run in SIMD lanes, a block of lanes is carried over a chunk of orders whose
-//! coefficients stay in the first-level cache, and its state is kept between chunks.
+//! coefficients stay in the first-level cache, and its state is kept between chunks ([`kernel`]).
+
+mod kernel;
 
 use crate::cancel;
-use crate::math::fused::multiply_add;
-use multiversion::multiversion;
-use multiversion::target::target_cfg_f;
+use kernel::{Block, LANES, advance, fill_records};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Angles carried together.
-const LANES: usize = 16;
 /// Orders per chunk: 256 records of 64 bytes are 16 KiB.
 const CHUNK: usize = 256;
 /// Angles closer than this (radians) share one recurrence: the rounding of θ itself near π.
 const SAME_ANGLE: f64 = 1e-15;
-
-type Lanes = [f64; LANES];
 
 /// Scattering angles prepared for summation: folded to θ ≤ π/2, equal ones merged.
 #[derive(Clone, Debug)]
@@ -64,14 +60,14 @@ enum Sides {
 impl AngleSet {
     /// Prepare angles (radians, any order; 0 … π).
     pub fn new(theta: &[f64]) -> Self {
-        let folded = |i: usize| if theta[i] > FRAC_PI_2 { PI - theta[i] } else { theta[i] };
-        let mut order: Vec<usize> = (0..theta.len()).collect();
-        order.sort_by(|&i, &j| folded(i).total_cmp(&folded(j)));
+        let fold = |&theta: &f64| if theta > FRAC_PI_2 { PI - theta } else { theta };
+        // a stable sort: angles in order, folded, are two runs, which it merges
+        let mut order: Vec<(f64, usize)> = theta.iter().map(fold).zip(0..).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut t: Vec<f64> = Vec::with_capacity(theta.len() + LANES);
         let mut place = vec![(0, false); theta.len()];
         let mut last = f64::NEG_INFINITY;
-        for i in order {
-            let angle = folded(i);
+        for (angle, i) in order {
             if angle - last > SAME_ANGLE {
                 let half_sine = (0.5 * angle).sin();
                 t.push(2.0 * half_sine * half_sine);
@@ -105,156 +101,8 @@ impl AngleSet {
     }
 }
 
-/// What one order contributes, broadcast over the angles.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct OrderRecord<const W: usize> {
-    /// (2n+1)(a_n + b_n) and (2n+1)(a_n - b_n) of every series: real and imaginary parts.
-    coefficients: [[f64; 4]; W],
-    /// (2n+1)/(n(n+1)).
-    weight: f64,
-    /// n + 1.
-    next: f64,
-    /// 1/(n+1).
-    inverse_next: f64,
-    /// 2/(n(n+1)).
-    double_inverse: f64,
-}
-
 /// Partial-wave coefficients a_n and b_n; index 0 is n = 1.
 pub type Waves<'a> = (&'a [Complex64], &'a [Complex64]);
-
-/// The records of the orders `orders` (from 0: n - 1); a series that is over has zeros.
-fn fill_records<const W: usize>(
-    orders: std::ops::Range<usize>,
-    series: &[Waves; W],
-    out: &mut Vec<OrderRecord<W>>,
-) {
-    out.clear();
-    out.extend(orders.map(|k| {
-        let n = (k + 1) as f64;
-        let (odd, product) = (2.0 * n + 1.0, n * (n + 1.0));
-        let coefficients = series.map(|(a, b)| match (a.get(k), b.get(k)) {
-            (Some(a), Some(b)) => {
-                let (sum, difference) = ((a + b) * odd, (a - b) * odd);
-                [sum.re, sum.im, difference.re, difference.im]
-            }
-            _ => [0.0; 4],
-        });
-        OrderRecord {
-            coefficients,
-            weight: odd / product,
-            next: n + 1.0,
-            inverse_next: 1.0 / (n + 1.0),
-            double_inverse: 2.0 / product,
-        }
-    }));
-}
-
-/// Recurrence and partial sums of one block of angles.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct Block<const W: usize> {
-    d: Lanes,
-    pi: Lanes,
-    t: Lanes,
-    /// Re, Im of S1 + S2 at θ, S1 - S2 at θ, S1 + S2 at π - θ, S1 - S2 at π - θ of every series.
-    sums: [[Lanes; 8]; W],
-}
-
-impl<const W: usize> Block<W> {
-    /// The state before n = 1: d_1 = π_1 = 1.
-    fn new(t: &[f64]) -> Self {
-        let mut lanes = [0.0; LANES];
-        lanes.copy_from_slice(t);
-        Self { d: [1.0; LANES], pi: [1.0; LANES], t: lanes, sums: [[[0.0; LANES]; 8]; W] }
-    }
-}
-
-/// Carry every block over one chunk of orders; the first order of a chunk is odd.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
-    "x86_64+avx2+fma",
-    "aarch64+neon"
-))]
-fn advance<const W: usize>(blocks: &mut [Block<W>], records: &[OrderRecord<W>], sides: Sides) {
-    if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-        advance_sides::<W, true>(blocks, records, sides);
-    } else {
-        advance_sides::<W, false>(blocks, records, sides);
-    }
-}
-
-#[inline(always)]
-fn advance_sides<const W: usize, const FMA: bool>(
-    blocks: &mut [Block<W>],
-    records: &[OrderRecord<W>],
-    sides: Sides,
-) {
-    match sides {
-        Sides::Forward => advance_blocks::<W, FMA, true, false>(blocks, records),
-        Sides::Backward => advance_blocks::<W, FMA, false, true>(blocks, records),
-        Sides::Both => advance_blocks::<W, FMA, true, true>(blocks, records),
-    }
-}
-
-#[inline(always)]
-fn advance_blocks<const W: usize, const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
-    blocks: &mut [Block<W>],
-    records: &[OrderRecord<W>],
-) {
-    for block in blocks {
-        let mut state = *block;
-        let mut pairs = records.chunks_exact(2);
-        for pair in &mut pairs {
-            step::<W, FMA, FORWARD, BACKWARD>(&mut state, &pair[0], 1.0);
-            step::<W, FMA, FORWARD, BACKWARD>(&mut state, &pair[1], -1.0);
-        }
-        for record in pairs.remainder() {
-            step::<W, FMA, FORWARD, BACKWARD>(&mut state, record, 1.0);
-        }
-        *block = state;
-    }
-}
-
-/// Add one order and move the recurrence to the next; `parity` is (-1)^{n+1}.
-#[inline(always)]
-fn step<const W: usize, const FMA: bool, const FORWARD: bool, const BACKWARD: bool>(
-    state: &mut Block<W>,
-    order: &OrderRecord<W>,
-    parity: f64,
-) {
-    let fma = multiply_add::<FMA>;
-    let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
-    for l in 0..LANES {
-        let (pi, t) = (state.pi[l], state.t[l]);
-        let scaled = t * pi;
-        u[l] = fma(-scaled, order.inverse_next, state.d[l]);
-        v[l] = fma(pi, order.double_inverse, -u[l]);
-        let d = fma(-scaled, order.weight, state.d[l]);
-        state.d[l] = d;
-        state.pi[l] = fma(order.next, d, pi);
-    }
-    for w in 0..W {
-        let direct = order.coefficients[w];
-        let mirrored = direct.map(|coefficient| parity * coefficient);
-        let sums = &mut state.sums[w];
-        for l in 0..LANES {
-            if FORWARD {
-                sums[0][l] = fma(direct[0], u[l], sums[0][l]);
-                sums[1][l] = fma(direct[1], u[l], sums[1][l]);
-                sums[2][l] = fma(direct[2], v[l], sums[2][l]);
-                sums[3][l] = fma(direct[3], v[l], sums[3][l]);
-            }
-            if BACKWARD {
-                sums[4][l] = fma(mirrored[0], v[l], sums[4][l]);
-                sums[5][l] = fma(mirrored[1], v[l], sums[5][l]);
-                sums[6][l] = fma(mirrored[2], u[l], sums[6][l]);
-                sums[7][l] = fma(mirrored[3], u[l], sums[7][l]);
-            }
-        }
-    }
-}
 
 /// Run all orders over some blocks.
 fn run<const W: usize>(blocks: &mut [Block<W>], series: &[Waves; W], sides: Sides) {
@@ -305,8 +153,7 @@ fn collect<const W: usize>(
         .iter()
         .map(|&(place, beyond)| {
             let (block, lane) = (&blocks[place / LANES], place % LANES);
-            let first = if beyond { 4 } else { 0 };
-            let at = |k: usize| block.sums[series][first + k][lane];
+            let at = |k: usize| block.sums[series][usize::from(beyond)][k][lane];
             let sum = Complex64::new(at(0), at(1));
             let difference = Complex64::new(at(2), at(3));
             (0.5 * (sum + difference), 0.5 * (sum - difference))
