@@ -6,7 +6,7 @@
  * that a new one is there at once.
  */
 
-import type { FromWorker, ToWorker } from "./worker";
+import type { FromWorker, Step, ToWorker } from "./worker";
 import type { Header, Refusal, Reply } from "./message";
 
 declare const WORKER_SOURCE: string;
@@ -22,49 +22,58 @@ export class Refused extends Error {
 }
 
 interface Question {
-  header: Header;
-  numbers: Float64Array;
-  resolve(reply: Reply): void;
+  steps: Step[];
+  /** Whether a newer question makes it needless. */
+  fleeting: boolean;
+  resolve(replies: Reply[]): void;
   reject(error: Error): void;
 }
 
-const NOTHING = new Float64Array(0);
+function first(replies: Reply[]): Reply {
+  const [reply] = replies;
+  if (!reply) throw new Dropped();
+  return reply;
+}
 
 class Lane {
   private worker: Worker | undefined;
   private asked: Question | undefined;
-  private waiting: Question | undefined;
+  private waiting: Question[] = [];
   private last = 0;
   /** Bytes that the worker's engine holds. */
   held = 0;
 
   constructor(private readonly module: WebAssembly.Module, private readonly source: string) {}
 
-  ask(header: Header, numbers: Float64Array): Promise<Reply> {
+  ask(steps: Step[], fleeting: boolean): Promise<Reply[]> {
     return new Promise((resolve, reject) => {
-      this.waiting?.reject(new Dropped());
-      this.waiting = { header, numbers, resolve, reject };
+      if (fleeting) {
+        for (const question of this.waiting) if (question.fleeting) question.reject(new Dropped());
+        this.waiting = this.waiting.filter((question) => !question.fleeting);
+      }
+      this.waiting.push({ steps, fleeting, resolve, reject });
       this.next();
     });
   }
 
   drop(): void {
-    this.waiting?.reject(new Dropped());
-    this.waiting = undefined;
+    for (const question of this.waiting) question.reject(new Dropped());
+    this.waiting = [];
     if (!this.asked) return;
     this.worker?.terminate();
     this.worker = undefined;
+    this.held = 0;
     this.asked.reject(new Dropped());
     this.asked = undefined;
   }
 
   private next(): void {
-    if (this.asked || !this.waiting) return;
-    this.asked = this.waiting;
-    this.waiting = undefined;
+    if (this.asked) return;
+    this.asked = this.waiting.shift();
+    if (!this.asked) return;
     this.worker ??= this.started();
     this.last += 1;
-    this.tell({ kind: "ask", id: this.last, header: this.asked.header, numbers: this.asked.numbers });
+    this.tell({ kind: "ask", id: this.last, steps: this.asked.steps });
   }
 
   private tell(message: ToWorker): void {
@@ -87,9 +96,9 @@ class Lane {
       reject(new Refused({ field: "", message: `the engine broke off (${told.message})` }));
     } else {
       this.held = told.held;
-      const refusal = told.reply.header["error"] as Refusal | undefined;
+      const refusal = told.replies.at(-1)?.header["error"] as Refusal | undefined;
       if (refusal) reject(new Refused(refusal));
-      else resolve(told.reply);
+      else resolve(told.replies);
     }
     this.next();
   }
@@ -113,12 +122,26 @@ export class Engine {
     return new Engine(await WebAssembly.compile(bytes));
   }
 
-  quick(header: Header, numbers = NOTHING): Promise<Reply> {
-    return this.quickLane.ask(header, numbers);
+  /** Questions that belong together, to be answered at once; newer ones make those that wait needless. */
+  quickly(steps: Step[]): Promise<Reply[]> {
+    return this.quickLane.ask(steps, true);
   }
 
-  fine(header: Header, numbers = NOTHING): Promise<Reply> {
-    return this.fineLane.ask(header, numbers);
+  async quick(header: Header): Promise<Reply> {
+    return first(await this.quickly([{ header }]));
+  }
+
+  /** One question that no newer one makes needless. */
+  async beside(header: Header): Promise<Reply> {
+    return first(await this.quickLane.ask([{ header }], false));
+  }
+
+  finely(steps: Step[]): Promise<Reply[]> {
+    return this.fineLane.ask(steps, false);
+  }
+
+  async fine(header: Header, numbers?: Float64Array): Promise<Reply> {
+    return first(await this.finely([{ header, ...(numbers ? { numbers } : {}) }]));
   }
 
   /** Forget what the fine worker does. */

@@ -5,8 +5,8 @@ export type Header = Record<string, unknown> & { op: string };
 /** An answer: its header, and its numbers by name. */
 export interface Reply {
   header: Record<string, unknown>;
-  f64: Record<string, Float64Array>;
-  u8: Record<string, Uint8Array>;
+  f64: Record<string, Float64Array<ArrayBuffer>>;
+  u8: Record<string, Uint8Array<ArrayBuffer>>;
 }
 
 /** Why the engine refuses, and the control it belongs to (or ""). */
