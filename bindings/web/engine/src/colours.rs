@@ -291,8 +291,9 @@ mod tests {
         (layers.drop.medium, layers.drop.core_medium) = ("1.333".into(), "1.333".into());
         let mut rays = asked("spheroid", 60.0);
         (rays.drop.medium, rays.drop.axis_ratio) = ("1.333".into(), 0.999);
-        let right = bow(&plain);
-        assert!((right - bow(&layers)).abs() < 1e-9);
-        assert!((right - bow(&rays)).abs() < 0.6, "{right} {}", bow(&rays));
+        assert!((bow(&plain) - bow(&layers)).abs() < 1e-9);
+        // colours of rays take long here: one wavelength says as much
+        let one = |column: &Column| bow(&Column { wavelength_nm: Some(550.0), ..column.clone() });
+        assert!((one(&plain) - one(&rays)).abs() < 0.6, "{} {}", one(&plain), one(&rays));
     }
 }

@@ -14,6 +14,7 @@ pub mod scene_text;
 pub mod sky;
 
 use message::{Reply, Request, Trouble};
+use std::sync::Mutex;
 
 /// What a request is answered with, whichever side of the border calls.
 pub fn respond(bytes: &[u8]) -> Vec<u8> {
@@ -40,6 +41,36 @@ fn dispatch(request: &Request) -> Result<Reply, Trouble> {
     }
 }
 
+/// What a panic said last: where the engine breaks off there is nobody else to tell.
+static LAST_WORDS: Mutex<String> = Mutex::new(String::new());
+
+/// Have panics remembered for [`last_words`].
+#[unsafe(no_mangle)]
+pub extern "C" fn listen() {
+    std::panic::set_hook(Box::new(|panic| {
+        if let Ok(mut words) = LAST_WORDS.lock() {
+            *words = panic.to_string();
+        }
+    }));
+}
+
+/// What the last panic said, as [`answer`] gives answers.
+#[unsafe(no_mangle)]
+pub extern "C" fn last_words() -> *mut u8 {
+    handed_over(LAST_WORDS.lock().map(|words| words.clone()).unwrap_or_default().as_bytes())
+}
+
+/// Bytes behind their own length, in room that [`release`] takes back.
+fn handed_over(bytes: &[u8]) -> *mut u8 {
+    let whole = 8 + bytes.len();
+    let place = reserve(whole);
+    // SAFETY: `reserve` gave room for at least `whole` bytes.
+    let out = unsafe { std::slice::from_raw_parts_mut(place, whole) };
+    out[..8].copy_from_slice(&(bytes.len() as u64).to_le_bytes());
+    out[8..].copy_from_slice(bytes);
+    place
+}
+
 /// Room for a request of so many bytes; it is given back by [`answer`].
 #[unsafe(no_mangle)]
 pub extern "C" fn reserve(length: usize) -> *mut u8 {
@@ -61,14 +92,7 @@ pub unsafe extern "C" fn answer(room: *mut u8, length: usize) -> *mut u8 {
         unsafe { Box::from_raw(std::ptr::slice_from_raw_parts_mut(room.cast::<f64>(), words)) };
     // SAFETY: f64s are readable as bytes, and `length` is at most eight times their number.
     let bytes = unsafe { std::slice::from_raw_parts(request.as_ptr().cast::<u8>(), length) };
-    let reply = respond(bytes);
-    let whole = 8 + reply.len();
-    let place = reserve(whole);
-    // SAFETY: `reserve` gave room for at least `whole` bytes.
-    let out = unsafe { std::slice::from_raw_parts_mut(place, whole) };
-    out[..8].copy_from_slice(&(reply.len() as u64).to_le_bytes());
-    out[8..].copy_from_slice(&reply);
-    place
+    handed_over(&respond(bytes))
 }
 
 /// Take back an answer.

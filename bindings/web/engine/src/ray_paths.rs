@@ -35,6 +35,17 @@ struct Path {
     focus: Option<[f64; 2]>,
 }
 
+impl Path {
+    /// The focus, and 1 where light comes through it, 0 where it only seems to come from there.
+    fn caustic(&self) -> [f64; 3] {
+        let (Some([x, z]), Some(last)) = (self.focus, self.points.last()) else {
+            return [f64::NAN; 3];
+        };
+        let ahead = (x - last[0]) * self.leaves[0] + (z - last[1]) * self.leaves[1];
+        [x, z, if ahead > 0.0 { 1.0 } else { 0.0 }]
+    }
+}
+
 /// Most rays, orders and wavelengths of one answer.
 const MOST: usize = 2000;
 /// Points of the outline.
@@ -72,8 +83,7 @@ pub fn rays(request: &Request) -> Result<Reply, Trouble> {
                 points.extend(end);
             }
             let fan = plane.fan(asked.fan, order);
-            let focused: Vec<[f64; 2]> =
-                fan.iter().map(|path| path.focus.unwrap_or([f64::NAN; 2])).collect();
+            let focused: Vec<[f64; 3]> = fan.iter().map(Path::caustic).collect();
             caustics.push(json!([order, nm, focused.len(), colour]));
             foci.extend(focused.iter().flatten());
             turned.extend(fan.iter().flat_map(|path| [path.impact, path.deviation.to_degrees()]));

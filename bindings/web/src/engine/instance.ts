@@ -7,6 +7,8 @@ interface Exports {
   reserve(length: number): number;
   answer(room: number, length: number): number;
   release(place: number): void;
+  listen(): void;
+  last_words(): number;
 }
 
 export class Instance {
@@ -14,7 +16,9 @@ export class Instance {
 
   static async of(module: WebAssembly.Module): Promise<Instance> {
     const instance = await WebAssembly.instantiate(module, {});
-    return new Instance(instance.exports as unknown as Exports);
+    const exports = instance.exports as unknown as Exports;
+    exports.listen();
+    return new Instance(exports);
   }
 
   /** Throws where the engine breaks off; the instance is not to be used after that. */
@@ -22,11 +26,23 @@ export class Instance {
     const request = pack(header, numbers);
     const room = this.exports.reserve(request.length);
     new Uint8Array(this.exports.memory.buffer, room, request.length).set(request);
-    const place = this.exports.answer(room, request.length);
+    return unpack(this.taken(this.exports.answer(room, request.length)));
+  }
+
+  /** What the engine said when it broke off. */
+  lastWords(): string {
+    try {
+      return new TextDecoder().decode(this.taken(this.exports.last_words()));
+    } catch {
+      return "";
+    }
+  }
+
+  private taken(place: number): Uint8Array {
     const length = Number(new DataView(this.exports.memory.buffer, place).getBigUint64(0, true));
     const bytes = new Uint8Array(this.exports.memory.buffer, place + 8, length).slice();
     this.exports.release(place);
-    return unpack(bytes);
+    return bytes;
   }
 
   /** Bytes that the instance holds. */

@@ -33,10 +33,11 @@ self.onmessage = async (event: MessageEvent<ToWorker>) => {
     instance = Instance.of(told.module);
     return;
   }
+  let engine: Instance | undefined;
   try {
     if (!module) throw new Error("no engine");
     instance ??= Instance.of(module);
-    const engine = await instance;
+    engine = await instance;
     const begun = performance.now();
     const replies: Reply[] = [];
     for (const { header, numbers, of } of told.steps) {
@@ -51,6 +52,6 @@ self.onmessage = async (event: MessageEvent<ToWorker>) => {
   } catch (error) {
     // a panic leaves an instance in pieces: the next question gets a new one
     instance = undefined;
-    post({ kind: "broken", id: told.id, message: error instanceof Error ? error.message : String(error) });
+    post({ kind: "broken", id: told.id, message: engine?.lastWords() || (error instanceof Error ? error.message : String(error)) });
   }
 };

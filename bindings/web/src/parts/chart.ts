@@ -116,6 +116,7 @@ export class Chart {
     ctx.strokeStyle = themed("--muted");
     ctx.fillStyle = themed("--muted");
     ctx.setLineDash([3, 4]);
+    ctx.textAlign = "left";
     ctx.font = `${11 * devicePixelRatio}px sans-serif`;
     for (const { at, word } of this.data?.marks ?? []) {
       const x = plot.valToPos(at, "x", true);
@@ -131,7 +132,7 @@ export class Chart {
 
   private size(): { width: number; height: number } {
     const width = Math.max(240, this.element.clientWidth || 600);
-    return { width, height: Math.max(240, Math.min(520, Math.round(width * 0.56))) };
+    return { width, height: Math.max(290, Math.min(520, Math.round(width * 0.56))) };
   }
 
   private resize(): void {

@@ -138,16 +138,20 @@ function foci(reply: Reply): string {
   const all = reply.f64["foci"] ?? new Float64Array();
   let place = 0;
   return ((reply.header["caustics"] ?? []) as [number, number, number][]).map(([order, , count]) => {
-    const parts: string[] = [];
-    let open = false;
-    for (let i = 0; i < count; i += 1) {
-      const [x, z] = [all[place + 2 * i] ?? NaN, all[place + 2 * i + 1] ?? NaN];
-      const near = Math.hypot(x, z) < 6;
-      if (near) parts.push(`${open ? "L" : "M"}${pixel(x, z)}`);
-      open = near;
-    }
-    place += 2 * count;
-    return `<path d="${parts.join("")}" stroke="var(--order-${order})" stroke-width="2.2"/>`;
+    // light comes through the real ones, and seems to come from the others
+    const kinds = [0, 1].map((wanted) => {
+      const parts: string[] = [];
+      let open = false;
+      for (let i = 0; i < count; i += 1) {
+        const [x, z, real] = [all[place + 3 * i] ?? NaN, all[place + 3 * i + 1] ?? NaN, all[place + 3 * i + 2]];
+        const near = Math.hypot(x, z) < 6 && real === wanted;
+        if (near) parts.push(`${open ? "L" : "M"}${pixel(x, z)}`);
+        open = near;
+      }
+      return `<path d="${parts.join("")}" stroke="var(--order-${order})" stroke-width="2.2"${wanted === 0 ? ' stroke-dasharray="5 4" opacity="0.7"' : ""}/>`;
+    });
+    place += 3 * count;
+    return kinds.join("");
   }).join("");
 }
 
@@ -164,7 +168,8 @@ function words(state: State, coarse: Reply, fine: Reply | undefined): string {
     const told = [...new Set(bows.map((bow) => angleShown(state, bow.deg).toFixed(2)))].map((deg) => `${deg}°`).join(", ");
     return `<span style="color:var(--order-${order})">■</span> order ${order}: ${escaped(leaves)}${told === "" ? "" : `; rainbow at <b>${told}</b>`}`;
   });
-  return lines.join("<br>");
+  const caustic = state.caustic && state.orders.length > 0 ? "<br>Thick: the caustic, where neighbouring rays cross; dashed where they only seem to come from." : "";
+  return lines.join("<br>") + caustic;
 }
 
 /** With colours of its own instead of the page's. */

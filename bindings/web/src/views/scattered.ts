@@ -34,7 +34,8 @@ export function scatteredView(page: Page): View {
   const question = (state: State, fine: boolean, whole: boolean) => ({
     op: "scattered", drop: fine ? dropOf(state) : { ...dropOf(state), spread: 0 }, wavelength_nm: state.wavelength_nm,
     theta_deg: [state.from_deg, state.to_deg], points: fine ? FINE : COARSE, azimuth_deg: state.azimuth_deg,
-    orders: state.orders.length > 0 || isRound(state.shape) || fine ? state.orders : [2],
+    // of rays one order is quick, and the primary bow matters most
+    orders: fine || isRound(state.shape) ? state.orders : [state.orders.includes(2) ? 2 : (state.orders[0] ?? 2)],
     sun_disc: fine && state.sun_disc, sizes: SIZES, tolerance: fine ? 0.02 : 0.1, by_rays: false, whole,
   });
 
@@ -48,7 +49,7 @@ export function scatteredView(page: Page): View {
     const [from, to] = [angleShown(state, state.from_deg), angleShown(state, state.to_deg)];
     chart.show({
       x: { label: angleName(state), from: Math.min(from, to), to: Math.max(from, to) },
-      y: { label: state.curve === "polarisation" ? "degree of linear polarisation" : state.light === "daylight" ? "luminance (1/sr)" : "intensity over the shadow's area (1/sr)", ...y, log },
+      y: { label: state.curve === "polarisation" ? "degree of linear polarisation" : state.light === "daylight" ? "luminance (1/sr)" : "intensity (1/sr)", ...y, log },
       at: shown.at, curves: turned, marks: marks.map((mark) => ({ ...mark, at: angleShown(state, mark.at) })),
     });
     caption = `${sizeName(state)} ${sizeText(state, state.radius_um)}${state.light === "one" ? `, ${state.wavelength_nm} nm` : ""}`;
@@ -64,7 +65,7 @@ export function scatteredView(page: Page): View {
       ...orders.flatMap((order) => curve(`order ${order}`, reply.f64[`order ${order}`], themed(`--order-${order}`))),
     ];
     const bows = (reply.header["rainbows"] as [number, number][]).filter(([order]) => orders.includes(order));
-    show(state, curves, Array.from(reply.f64["theta_deg"] ?? []), bows.map(([order, deg]) => ({ at: deg, word: `bow ${order - 1}` })));
+    show(state, curves, Array.from(reply.f64["theta_deg"] ?? []), bows.map(([order, deg]) => ({ at: deg, word: `bow ${order - 1}${isRound(state.shape) ? "" : " of a sphere"}` })));
   };
 
   const ofDaylight = (state: State, reply: Reply): void => {
@@ -107,7 +108,7 @@ export function scatteredView(page: Page): View {
         const coarse = await page.engine.quick(question(state, false, isRound(state.shape)));
         ofWavelength(state, coarse);
         const method = String(coarse.header["method"]);
-        page.status(`coarse: ${COARSE} angles${state.sun_disc ? ", a point of light" : ""}${state.spread > 0 ? ", one size" : ""}${isRound(state.shape) ? "" : ", single orders"}; ${method}`, true);
+        page.status(`coarse: ${COARSE} angles${state.sun_disc ? ", a point of light" : ""}${state.spread > 0 ? ", one size" : ""}${isRound(state.shape) ? "" : ", one order alone"}; ${method}`, true);
         if (!alive()) return;
         const fine = await page.engine.fine(question(state, true, state.whole || isRound(state.shape)));
         if (!alive()) return;
