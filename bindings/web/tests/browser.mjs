@@ -44,7 +44,7 @@ export async function go(page, hash) {
 /** What a view shows, as one text. */
 export const shown = (page, view) => page.evaluate((name) => {
   const panel = document.querySelector(`#panel-${name}`);
-  const canvases = [...panel.querySelectorAll("canvas")].map((canvas) => canvas.width * canvas.height > 0 ? canvas.toDataURL() : "");
+  const canvases = [...panel.querySelectorAll("canvas")].filter((canvas) => canvas.offsetParent !== null).map((canvas) => canvas.width * canvas.height > 0 ? canvas.toDataURL() : "");
   const drawing = panel.querySelector(".drawing")?.innerHTML ?? "";
   const words = [...panel.querySelectorAll(".legend, .u-legend, .lee-x, .lee-y")].map((element) => element.textContent).join("|");
   const cursor = panel.querySelector(".cursor")?.style.left ?? "";

@@ -193,4 +193,76 @@ mod tests {
         assert!((theta.to_degrees() - 138.0).abs() < 1e-9, "{}", theta.to_degrees());
         assert!((phi.abs().to_degrees() - 180.0).abs() < 1e-9, "{phi}");
     }
+
+    /// The picture of a bow is that which the library draws of a table of the same drops.
+    #[test]
+    fn pictures_are_those_of_the_library() {
+        use gonio::color::{Illuminant, Observer};
+        use gonio::render::sky::{Drops, RainShape, Sky, render};
+        use gonio::scene::{Scene, SceneFile};
+        let keys: SceneFile = toml::from_str(
+            "[particle]\nshape = 'sphere'\nradius_um = 20\n[light]\nsun_elevation_deg = 20\n\
+             wavelengths_nm = { from = 380, to = 730, count = 71 }\nsun_disc = 'limb-darkened'\n\
+             [table]\ntheta_deg = { from = 120, to = 165, count = 451 }\nazimuth_deg = [0]\n\
+             [model]\nmethod = 'mie'",
+        )
+        .unwrap();
+        let table = gonio::simulate::table(&Scene::built_in(&keys).unwrap()).unwrap();
+        let asked = crate::colours::Column {
+            drop: crate::drop::tests::drop("sphere", 20.0),
+            theta_deg: [120.0, 165.0],
+            points: 451,
+            azimuth_deg: 0.0,
+            sun_disc: true,
+            fineness: 1.0,
+            wavelength_nm: None,
+        };
+        let column = asked.diagram().unwrap();
+        let numbers: Vec<f64> = column.xyz.iter().flatten().flatten().flatten().copied().collect();
+        let camera = Camera {
+            lens: Lens::Rectilinear,
+            field_of_view: 80f64.to_radians(),
+            elevation: 15f64.to_radians(),
+            azimuth: 0.1,
+            width: 120,
+            height: 72,
+        };
+        let header = json!({
+            "op": "sky", "sun_elevation_deg": 20.0, "fov_deg": 80.0, "elevation_deg": 15.0,
+            "azimuth_deg": 0.1f64.to_degrees(), "width": 120, "height": 72, "stops": 0.0, "ground": true,
+            "columns": { "theta_deg": [120.0, 165.0], "points": 451, "azimuths_deg": [0.0],
+                         "polarisation": "total" },
+        });
+        let reply = sky(&Request::new(header, numbers)).unwrap();
+        let crate::message::Block::U8(rgba) = &reply.blocks[0].1 else { unreachable!() };
+        // the same brightness: the brightest bow of both is what `BRIGHTEST` says
+        let drawn = render(
+            &camera,
+            &Sky {
+                sun_elevation: 20f64.to_radians(),
+                sun_disc: true,
+                illuminant: Illuminant::D65,
+                observer: Observer::Cie1931,
+                rain: RainShape::Around,
+                optical_depth: 1.0,
+                background: BACKGROUND,
+                ground: Some(GROUND),
+                brightness: BRIGHTEST,
+                exposure: None,
+                polariser: None,
+                horizon_line: false,
+            },
+            &[Drops { table: &table, number: 1.0 }],
+        )
+        .unwrap();
+        let off = rgba
+            .chunks_exact(4)
+            .zip(drawn.picture.rgb.chunks_exact(3))
+            .flat_map(|(a, b)| (0..3).map(|c| a[c].abs_diff(b[c])).collect::<Vec<_>>())
+            .max();
+        assert!(off.is_some_and(|off| off <= PICTURE), "{off:?} of 255");
+    }
+
+    /// Levels of 255 that the two pictures may differ: their wavelengths are not the same.
+    const PICTURE: u8 = 4;
 }
