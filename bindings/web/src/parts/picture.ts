@@ -74,7 +74,7 @@ export const INSIDE = { x: LEFT, y: TOP, width: PLOT.width - LEFT - RIGHT, heigh
 /** Columns of numbers with names and a line about them. */
 export function table(about: string, columns: readonly (readonly [name: string, values: ArrayLike<number>])[]): string {
   const rows = Math.max(...columns.map(([, values]) => values.length));
-  const lines = [`# ${about.replace(/\s+/g, " ")}`, columns.map(([name]) => name).join(",")];
+  const lines = [`# ${about.replace(/\s+/g, " ")}`, columns.map(([name]) => name.replaceAll(",", "")).join(",")];
   for (let row = 0; row < rows; row += 1) lines.push(columns.map(([, values]) => String(values[row] ?? "")).join(","));
   return `${lines.join("\n")}\n`;
 }

@@ -11,7 +11,7 @@ import { angleName, angleShown, digits, sizeName, sizeText } from "../parts/unit
 import type { Page, View } from "./view";
 
 /** Angles of a coarse and of a fine curve. */
-const COARSE = 301;
+const COARSE = 241;
 const FINE = 1801;
 /** Sizes that stand for a spread. */
 const SIZES = 48;
@@ -79,20 +79,26 @@ export function scatteredView(page: Page): View {
     show(state, [{ name, colour: themed("--text"), values: chosen(state, y), width: 1.5 }], Array.from(reply.f64["theta_deg"] ?? []), []);
   };
 
-  const paint = (state: State, rgb: Uint8Array): void => {
+  const paint = (state: State, rgb: Uint8Array, deg: Float64Array): void => {
     const count = rgb.length / 3;
     const rgba = new Uint8Array(4 * count);
     for (let i = 0; i < count; i += 1) {
       const from = state.angle_from === "antisolar" ? count - 1 - i : i;
       rgba.set([rgb[3 * from] ?? 0, rgb[3 * from + 1] ?? 0, rgb[3 * from + 2] ?? 0, 255], 4 * i);
     }
-    strip.getContext("2d")?.drawImage(canvasOf(rgba, count, 1), 0, 0, strip.width, 1);
+    // a coarse column may reach over a part of the chart alone
+    const ends = [deg[0] ?? 0, deg.at(-1) ?? 180].map((end) => (end - state.from_deg) / (state.to_deg - state.from_deg));
+    const shares = state.angle_from === "antisolar" ? ends.map((end) => 1 - end).reverse() : ends;
+    const [left, right] = shares.map((share) => share * strip.width) as [number, number];
+    const context = strip.getContext("2d");
+    context?.clearRect(0, 0, strip.width, 1);
+    context?.drawImage(canvasOf(rgba, count, 1), left, 0, right - left, 1);
   };
   /** A column and its colours. */
   const coloured = (state: State, [column, painted]: Reply[]): void => {
     if (!column) return;
     ofDaylight(state, column);
-    paint(state, painted?.u8["rgb"] ?? new Uint8Array());
+    paint(state, painted?.u8["rgb"] ?? new Uint8Array(), column.f64["theta_deg"] ?? new Float64Array());
   };
   const steps = (state: State, header: Header): Step[] => [{ header }, { header: { op: "paint", polarisation: state.polarisation, stops: 0 }, of: 0 }];
 
@@ -120,9 +126,9 @@ export function scatteredView(page: Page): View {
       // The bows first: near the axis colours take longest.
       const round = isRound(state.shape);
       const [from, to] = [Math.max(state.from_deg, Math.min(125, state.to_deg - 1)), state.to_deg];
-      const near = { from, to: Math.max(from + 0.5, Math.min(to, 160)), points: COARSE };
+      const near = { from, to: Math.max(from + 0.5, Math.min(to, 146)), points: 201 };
       const sketch = round ? {} : { wavelength_nm: 560, sun_disc: false, drop: { ...dropOf(state), spread: 0 } };
-      coloured(state, await page.engine.quickly(steps(state, columnOf(state, round ? near : { ...near, points: 121 }, 0.1, sketch))));
+      coloured(state, await page.engine.quickly(steps(state, columnOf(state, round ? near : { ...near, points: 81 }, 0.1, sketch))));
       page.status(round ? "coarse: few wavelengths, about the bows" : "coarse: the primary bow alone, at 560 nm", true);
       if (!alive()) return;
       for (const [fineness, points] of round ? [[0.2, 601], [1, FINE]] as const : [[0.1, 301], [0.4, 601]] as const) {

@@ -15,7 +15,7 @@ const NEAR_AXIS = 165;
 const LARGEST_GLORY_UM = 60;
 /** Azimuths of a whole sky of drops that are not round; each takes seconds. */
 const AZIMUTHS = [180, 150, 120, 90, 60, 30, 0];
-const COARSE_WIDTH = 400;
+const COARSE_WIDTH = 280;
 const FINE_WIDTH = 1200;
 const RATIO = 0.6;
 
@@ -75,7 +75,7 @@ export function skyView(page: Page): View {
   const round = async (state: State, alive: () => boolean): Promise<void> => {
     const column = empty(WHOLE.points);
     sheet = { azimuths: [0], columns: [column] };
-    await sketched(state, { from: 125, to: 160, points: 281 }, {});
+    await sketched(state, { from: 126, to: 146, points: 161 }, {});
     page.status("coarse: few wavelengths, about the bows alone", true);
     if (!alive()) return;
     await stretched(state, { from: 90, to: NEAR_AXIS, points: 1001 }, 0.3, column);
