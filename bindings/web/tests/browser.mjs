@@ -13,7 +13,7 @@ const candidates = [process.env.GONIO_CHROMIUM, "/usr/bin/chromium", "/usr/bin/c
 export const executable = candidates.find((path) => path && existsSync(path));
 
 /** A browser, or nothing where there is none. */
-export const launch = () => chromium.launch({ executablePath: executable, args: ["--no-sandbox"] });
+export const launch = () => chromium.launch({ executablePath: executable, args: ["--no-sandbox", "--enable-precise-memory-info"] });
 
 /** A page that remembers what it should not do: errors, and requests that leave its folder. */
 export async function opened(browser, hash = "", options = {}) {
