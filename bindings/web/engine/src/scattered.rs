@@ -8,9 +8,9 @@ use crate::message::{Reply, Request, Trouble};
 use gonio::color::SUN_ANGULAR_RADIUS;
 use gonio::optics::{AmplitudeMatrix, rainbow_angle};
 use gonio::plan::Plan;
-use gonio::scatter;
 use gonio::scene::{Orders, Scene};
 use gonio::series::debye::{DebyeSeries, Term};
+use gonio::series::layered::Layered;
 use gonio::series::lorenz_mie::Sphere;
 use gonio::simulate;
 use gonio::size_distribution::log_normal_sample;
@@ -48,6 +48,8 @@ const MOST_SIZES: usize = 200;
 const LARGEST: f64 = 1e5;
 /// Angles per period of the fastest beat, which goes as 2x.
 const PER_BEAT: f64 = 2.5;
+/// Relative error of the amplitudes of a profile.
+pub(crate) const PROFILE_ERROR: f64 = 1e-5;
 
 /// A curve of both polarisations.
 pub(crate) type Curve = Vec<[f64; 2]>;
@@ -186,10 +188,12 @@ impl Question {
     ) -> Result<Curves, Trouble> {
         let x = TAU * drop.radius() / wavelength;
         if drop.is_radial() {
-            let own = drop.scene(self.wavelength_nm)?;
-            let (seen, _) =
-                scatter::of_scene(&own, wavelength, theta, 0.0).map_err(|e| Trouble::of(&e))?;
-            let whole = intensities(&seen.amplitudes);
+            let body = scene.medium.body(wavelength, drop.radius()).map_err(|e| Trouble::of(&e))?;
+            let body = body.ok_or_else(|| Trouble::new("medium", "no profile".into()))?;
+            let sphere = Layered::body(x, &body, PROFILE_ERROR).map_err(|e| Trouble::of(&e))?;
+            let pairs = sphere.amplitudes_parallel(theta);
+            let whole = pairs.iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]);
+            let whole = whole.collect();
             return Ok(Curves { whole, method: "exact series of layers", ..Curves::default() });
         }
         if drop.is_plain_sphere() && !self.by_rays {

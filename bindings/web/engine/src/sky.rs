@@ -264,5 +264,5 @@ mod tests {
     }
 
     /// Levels of 255 that the two pictures may differ: their wavelengths are not the same.
-    const PICTURE: u8 = 4;
+    const PICTURE: u8 = 8;
 }
