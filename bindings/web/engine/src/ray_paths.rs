@@ -169,8 +169,9 @@ impl Plane {
                 let across = |x: f64, z: f64| x * s.z - z * s.x;
                 let (apart, turn) = (across(dx.x, dx.z), across(ds.x, ds.z));
                 let t = -apart / turn;
-                let focus =
-                    t.is_finite().then(|| [exit.reference.x + t * s.x, exit.reference.z + t * s.z]);
+                let focus = t
+                    .is_finite()
+                    .then_some([exit.reference.x + t * s.x, exit.reference.z + t * s.z]);
                 let deviation = exit.scattering_angle();
                 Some(Path { impact, points: ray.points, leaves: [s.x, s.z], deviation, focus })
             }

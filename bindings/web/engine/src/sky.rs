@@ -9,6 +9,7 @@ use gonio::color::{encode_srgb, fit_gamut, xyz_to_linear_srgb};
 use gonio::render::camera::{Camera, Lens};
 use serde::Deserialize;
 use serde_json::json;
+use std::cmp::Ordering;
 
 /// Columns that a request brings, one after the other: six numbers per angle.
 #[derive(Debug, Deserialize)]
@@ -40,7 +41,7 @@ impl Lookup {
     pub fn new(columns: &Columns, numbers: &[f64]) -> Result<Self, Trouble> {
         let Columns { theta_deg: [from, to], points, azimuths_deg, polarisation } = columns;
         let fits = *points >= 2 && numbers.len() == azimuths_deg.len() * points * PER_ANGLE;
-        if !fits || azimuths_deg.is_empty() || !(to > from) {
+        if !fits || azimuths_deg.is_empty() || from.partial_cmp(to) != Some(Ordering::Less) {
             return Err(Trouble::new("", "columns and their numbers do not fit".into()));
         }
         let xyz = numbers.chunks_exact(PER_ANGLE).map(|six| seen(six, polarisation));
