@@ -52,7 +52,7 @@ def main() -> int:
     allowed = set(rules["allow"])
     told = {rule["crate"]: rule["expression"] for rule in rules.get("clarify", [])}
     refused, seen = [], set()
-    for manifest in ("Cargo.toml", "bindings/python/Cargo.toml"):
+    for manifest in ("Cargo.toml", "bindings/python/Cargo.toml", "bindings/web/engine/Cargo.toml"):
         command = ["cargo", "metadata", "--format-version", "1", "--locked", "--manifest-path", manifest]
         answer = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
         for package in json.loads(answer)["packages"]:
@@ -60,6 +60,13 @@ def main() -> int:
             if name not in seen and not accepted(licence, allowed):
                 refused.append(f"{name} {package['version']}: {licence or 'no licence is named'}")
             seen.add(name)
+    # what the page is bundled of and with: npm's lock file has the licences
+    lock = json.loads((ROOT / "bindings/web/package-lock.json").read_text(encoding="utf-8"))
+    for place, package in lock["packages"].items():
+        licence = package.get("license", "")
+        if place and not accepted(licence, allowed):
+            refused.append(f"{place} {package['version']}: {licence or 'no licence is named'}")
+        seen.add(place or "the page")
     assert accepted("MIT OR X", {"MIT"}) and not accepted("MIT AND X", {"MIT"}) and accepted("(X OR MIT) AND ISC", {"MIT", "ISC"})
     print("\n".join(refused) or f"licences: all of {len(seen)} packages are accepted")
     return 1 if refused else 0

@@ -11,8 +11,30 @@ use glam::Vec3A;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use std::time::Duration;
+use obvhs::bvh2::leaf_collapser::collapse;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::ploc::PlocBuilder;
+
+/// The steps of `obvhs::bvh2::builder::build_bvh2`, which reads a clock besides, and a browser's engine has none.
+fn hierarchy(boxes: &[Aabb]) -> Bvh2 {
+    let by = BvhBuildParams::fast_build();
+    let (reinserted, again) =
+        (by.reinsertion_batch_ratio, by.post_collapse_reinsertion_batch_ratio_multiplier);
+    let indices = (0..boxes.len() as u32).collect();
+    let (precision, depth) = (by.sort_precision, by.search_depth_threshold);
+    let mut built = PlocBuilder::with_capacity(boxes.len()).build(
+        by.ploc_search_distance,
+        boxes,
+        indices,
+        precision,
+        depth,
+    );
+    let mut optimizer = ReinsertionOptimizer::default();
+    optimizer.run(&mut built, reinserted, None);
+    collapse(&mut built, by.max_prims_per_leaf.clamp(1, 255), by.collapse_traversal_cost);
+    optimizer.run(&mut built, reinserted * again, None);
+    built
+}
 
 /// Sheets of patches, ready to be asked for directions.
 pub struct CollectingSphere {
@@ -49,9 +71,7 @@ impl CollectingSphere {
                 boxes.push(bounding_box(sheet, t));
             }
         }
-        let mut time = Duration::default();
-        let params = BvhBuildParams::fast_build();
-        let hierarchy = build_bvh2(&boxes, params, &mut time);
+        let hierarchy = hierarchy(&boxes);
         Self { sheets, addresses, hierarchy }
     }
 
