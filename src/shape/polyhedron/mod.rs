@@ -1,11 +1,15 @@
 //! A closed convex body of flat facets, scaled so that the sphere of equal volume has radius 1.
 
 mod check;
+mod crystal;
 mod crystals;
 mod facet;
+mod mesh;
 
 pub use check::BodyError;
+pub use crystal::Crystal;
 pub use facet::Facet;
+pub use mesh::{Format, Mesh, MeshError};
 
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -34,7 +38,13 @@ impl Body {
     /// Coordinates that are no sizes, facets that are none, edges that do not close, facets turned inside out,
     /// a body without thickness or with a hollow; the message names the facet, counted from 1.
     pub fn new(vertices: &[DVec3], loops: &[Vec<usize>]) -> Result<Self, BodyError> {
+        Self::with_size(vertices, loops).map(|(body, _)| body)
+    }
+
+    /// The same, and the radius of the sphere of equal volume in units of the corners.
+    fn with_size(vertices: &[DVec3], loops: &[Vec<usize>]) -> Result<(Self, f64), BodyError> {
         check::coordinates(vertices)?;
+        check::number(loops)?;
         // checks compare with the body's size
         let middle = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
         let size = vertices.iter().map(|v| (*v - middle).length()).fold(0.0, f64::max);
@@ -48,7 +58,7 @@ impl Body {
         let (volume, centre) = body.moments();
         check::convex(&body.vertices, &body.facets, volume, body.surface())?;
         let scale = (4.0 / 3.0 * PI / volume).cbrt();
-        Ok(body.mapped(|v| (v - centre) * scale))
+        Ok((body.mapped(|v| (v - centre) * scale), size / scale))
     }
 
     /// The body with its corners mapped by what keeps its shape.
