@@ -88,6 +88,12 @@ impl Body {
         self.facets.iter().map(|facet| facet.area(&self.vertices)).sum()
     }
 
+    /// Radius of the circle that has a facet's area, a mean over the surface.
+    pub fn facet_radius(&self) -> f64 {
+        let areas = self.facets.iter().map(|facet| facet.area(&self.vertices));
+        areas.map(|area| area * (area / PI).sqrt()).sum::<f64>() / self.surface()
+    }
+
     /// Area of its shadow in light of a direction.
     pub fn shadow(&self, direction: DVec3) -> f64 {
         let lit = |f: &Facet| (-f.normal.dot(direction)).max(0.0) * f.area(&self.vertices);
