@@ -29,6 +29,8 @@ fn with(section: &str, key: &str, value: &str) -> Result<Scene, String> {
         "axis_ratio" => "shape = \"spheroid\"",
         "model" => "shape = \"raindrop\"",
         "apex_deg" => "shape = \"bullet\"\naxis_ratio = 1",
+        "coefficients" => "shape = \"harmonics\"",
+        "exponent" => "shape = \"superellipsoid\"\naxis_ratio = 1",
         "shape" => "",
         _ => "shape = \"sphere\"",
     };

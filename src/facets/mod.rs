@@ -19,7 +19,6 @@
 //! ```
 
 pub mod beams;
-mod body;
 pub mod far_field;
 mod lobes;
 pub mod mean;
@@ -27,5 +26,5 @@ pub mod orientation;
 pub mod polygon;
 pub mod table;
 
-pub use body::{Body, BodyError};
+pub use crate::shape::polyhedron::{Body, BodyError};
 pub use far_field::FarField;

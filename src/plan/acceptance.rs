@@ -46,6 +46,12 @@ pub enum PlanError {
         error: f64,
     },
     #[error(
+        "{facets} facets with a size parameter of {size_parameter:.1} on average{place} (circle of their area): from \
+         {limit} on they are accepted; smaller ones scatter no plane waves, and a mesh of a smooth body is no smooth \
+         body: shape = \"spheroid\", \"harmonics\" or \"superellipsoid\""
+    )]
+    SmallFacets { facets: usize, size_parameter: f64, place: String, limit: f64 },
+    #[error(
         "method = \"{0}\": the exact series serve spheres only; accepted here: \"rays\", \"tmatrix\""
     )]
     SeriesNeedsSphere(&'static str),

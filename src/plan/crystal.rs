@@ -188,5 +188,10 @@ fn check(
             error,
         });
     }
+    let size_parameter = x * body.facet_radius();
+    if size_parameter < by.least_facet {
+        let (facets, limit) = (body.facets().len(), by.least_facet);
+        return Err(PlanError::SmallFacets { facets, size_parameter, place, limit });
+    }
     accept(by, light.index, x, &place)
 }

@@ -22,15 +22,20 @@ pub trait Named: Copy + PartialEq + 'static {
     /// # Errors
     /// A message with all accepted words, and the nearest one where there is one.
     fn from_name(word: &str) -> Result<Self, String> {
-        if let Some((_, value)) = Self::NAMES.iter().find(|(name, _)| *name == word) {
-            return Ok(*value);
-        }
-        let names: Vec<&str> = Self::NAMES.iter().map(|(name, _)| *name).collect();
-        let hint = nearest(word, names.iter().copied())
-            .map(|name| format!(" (did you mean \"{name}\"?)"))
-            .unwrap_or_default();
-        Err(format!("\"{word}\" is not known{hint}; accepted: {}", names.join(", ")))
+        known(word)
     }
+}
+
+/// The value that a word of the set stands for.
+fn known<T: Named>(word: &str) -> Result<T, String> {
+    if let Some((_, value)) = T::NAMES.iter().find(|(name, _)| *name == word) {
+        return Ok(*value);
+    }
+    let names: Vec<&str> = T::NAMES.iter().map(|(name, _)| *name).collect();
+    let hint = nearest(word, names.iter().copied())
+        .map(|name| format!(" (did you mean \"{name}\"?)"))
+        .unwrap_or_default();
+    Err(format!("\"{word}\" is not known{hint}; accepted: {}", names.join(", ")))
 }
 
 /// A [`Named`] value in a scene file.
@@ -79,21 +84,60 @@ pub enum ShapeName {
     PyramidalCrystal,
     /// A hexagonal column with one.
     Bullet,
+    /// A hexagonal column that narrows upwards.
+    TaperedColumn,
+    /// A round brilliant.
+    Brilliant,
+    /// A closed convex mesh of a file.
+    Mesh,
+    /// A body of revolution by the cosine series of its outline.
+    Harmonics,
+    /// A body of revolution between an ellipsoid and a cylinder.
+    Superellipsoid,
 }
 
 impl ShapeName {
     /// Whether it has flat facets.
     pub fn is_crystal(self) -> bool {
-        !matches!(self, ShapeName::Sphere | ShapeName::Spheroid | ShapeName::Raindrop)
+        !matches!(
+            self,
+            ShapeName::Sphere
+                | ShapeName::Spheroid
+                | ShapeName::Raindrop
+                | ShapeName::Harmonics
+                | ShapeName::Superellipsoid
+        )
+    }
+
+    /// Whether its proportions are fixed.
+    pub(super) fn is_regular(self) -> bool {
+        matches!(self, ShapeName::Octahedron | ShapeName::Brilliant | ShapeName::Mesh)
     }
 
     /// Whether an angle goes with it.
     pub(super) fn has_apex(self) -> bool {
-        matches!(self, ShapeName::TriangularPrism | ShapeName::PyramidalCrystal | ShapeName::Bullet)
+        matches!(
+            self,
+            ShapeName::TriangularPrism
+                | ShapeName::PyramidalCrystal
+                | ShapeName::Bullet
+                | ShapeName::TaperedColumn
+        )
     }
 }
 
 impl Named for ShapeName {
+    fn from_name(word: &str) -> Result<Self, String> {
+        match word.starts_with("hollow") {
+            true => Err(format!(
+                "\"{word}\": hollow crystals are not convex, and light that has left one may enter it again, which \
+                 no beam here does; accepted: convex bodies, such as \"hexagonal-column\", \"tapered-column\" or a \
+                 \"mesh\""
+            )),
+            false => known(word),
+        }
+    }
+
     const NAMES: &'static [(&'static str, Self)] = &[
         ("sphere", ShapeName::Sphere),
         ("spheroid", ShapeName::Spheroid),
@@ -104,6 +148,45 @@ impl Named for ShapeName {
         ("octahedron", ShapeName::Octahedron),
         ("pyramidal-crystal", ShapeName::PyramidalCrystal),
         ("bullet", ShapeName::Bullet),
+        ("tapered-column", ShapeName::TaperedColumn),
+        ("brilliant", ShapeName::Brilliant),
+        ("mesh", ShapeName::Mesh),
+        ("harmonics", ShapeName::Harmonics),
+        ("superellipsoid", ShapeName::Superellipsoid),
+    ];
+}
+
+/// Units of a mesh's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Nanometres.
+    Nanometre,
+    /// Micrometres.
+    Micrometre,
+    /// Millimetres.
+    Millimetre,
+    /// Metres.
+    Metre,
+}
+
+impl LengthUnit {
+    /// In millimetres.
+    pub(super) fn millimetres(self) -> f64 {
+        match self {
+            Self::Nanometre => 1e-6,
+            Self::Micrometre => 1e-3,
+            Self::Millimetre => 1.0,
+            Self::Metre => 1e3,
+        }
+    }
+}
+
+impl Named for LengthUnit {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("nm", LengthUnit::Nanometre),
+        ("um", LengthUnit::Micrometre),
+        ("mm", LengthUnit::Millimetre),
+        ("m", LengthUnit::Metre),
     ];
 }
 

@@ -234,6 +234,20 @@ impl Scene {
         Ok(())
     }
 
+    /// Rays that have left a body do not come back to it, and go straight on from walls that are nearly flat.
+    pub(super) fn check_outline(&self) -> Result<(), SceneError> {
+        let Particle::Own { body, .. } = &self.particle else { return Ok(()) };
+        if self.method == Method::TMatrix {
+            return Ok(());
+        }
+        if let Some(theta) = body.dent() {
+            let accepted = "rays take bodies without a dent; method = \"tmatrix\" takes this one where it is small";
+            let value = format!("an outline that is dented at θ = {:.1}°", theta.to_degrees());
+            return Err(SceneError::invalid("particle.coefficients", value, accepted));
+        }
+        Ok(())
+    }
+
     /// What varies along the radius is solved by the exact series.
     pub(super) fn check_radial(&self) -> Result<(), SceneError> {
         let Some(radial) = self.medium.radial() else { return Ok(()) };

@@ -4,9 +4,9 @@
 //! list of what is known. Every key is optional, because a flag may give what the file does not;
 //! [`SceneFile::overridden_by`] lays flags over a file.
 
-use super::choice::{AxisRatioKey, CantingKeys, Choice, ShapeName};
+use super::choice::{AxisRatioKey, CantingKeys, Choice, LengthUnit, ShapeName};
 #[cfg(feature = "cli")]
-use super::flags::{coating, index, medium, outside, word};
+use super::flags::{coating, coefficients, index, medium, outside, word};
 use super::grid::Grid;
 use super::orientation::OrientationKey;
 use super::sizes::SizeKeys;
@@ -15,6 +15,7 @@ use crate::medium::{FilmSpec, MediumSpec};
 use crate::phase_table::{ForwardPeak, Quantity};
 use crate::shape::RaindropModel;
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
 /// A scene as written: one field per section.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -87,6 +88,9 @@ macro_rules! section {
     };
 }
 
+/// Coefficients of a series, from the zeroth on.
+pub type Coefficients = Vec<f64>;
+
 /// Films from inside out.
 pub type Films = Vec<FilmSpec>;
 
@@ -111,6 +115,16 @@ section! {
         axis_ratio: AxisRatioKey [value_name = "RATIO|LAW", allow_negative_numbers = true]
         /// Wedge of a triangular prism, or angle between opposite facets of a crystal's pyramid
         apex_deg: f64 [value_name = "DEG", allow_negative_numbers = true]
+        /// Outline of harmonics: c_0, c_1, … of r(θ) = Σ c_n cos nθ, θ from straight down
+        coefficients: Coefficients [value_name = "LIST", value_parser = coefficients,
+            allow_hyphen_values = true]
+        /// Exponent of a superellipsoid: 2 is a spheroid
+        exponent: f64 [value_name = "M", allow_negative_numbers = true]
+        /// Mesh of a closed convex body: OBJ, STL or PLY
+        file: PathBuf [id = "particle_file", value_name = "MESH"]
+        /// Unit of the mesh's coordinates, in place of a size: nm, um, mm, m
+        file_unit: Choice<LengthUnit> [value_parser = word::<LengthUnit>(),
+            conflicts_with_all = ["radius_mm", "radius_um", "diameter_mm"]]
         /// Tilts of the axis: deviation_deg = 7 (drops by rays, crystals)
         canting: CantingKeys [value_name = "DEG", allow_negative_numbers = true]
         /// Axis upright, random, horizontal, or kind = "fixed", zenith_deg = 90
@@ -277,10 +291,15 @@ impl ParticleKeys {
         let size = flags.radius_mm.or(flags.radius_um).or(flags.diameter_mm);
         if size.is_some() || flags.size_distribution.is_some() {
             (self.radius_mm, self.radius_um, self.diameter_mm) = (None, None, None);
-            self.size_distribution = None;
+            (self.size_distribution, self.file_unit) = (None, None);
+        }
+        if flags.file_unit.is_some() {
+            (self.radius_mm, self.radius_um, self.diameter_mm) = (None, None, None);
         }
         if flags.shape.is_some() && flags.shape != self.shape {
             (self.axis_ratio, self.model, self.apex_deg) = (None, None, None);
+            (self.file, self.file_unit) = (None, None);
+            (self.coefficients, self.exponent) = (None, None);
         }
         if flags.medium.is_some() {
             (self.temperature_c, self.density_kg_m3) = (None, None);

@@ -29,6 +29,14 @@ pub(super) fn outside(text: &str) -> Result<MediumSpec, String> {
     }
 }
 
+/// `1,0,-0.05`
+pub(super) fn coefficients(text: &str) -> Result<Vec<f64>, String> {
+    let number = |word: &str| {
+        word.trim().parse().map_err(|_| format!("\"{word}\" is no number; accepted: 1,0,-0.05"))
+    };
+    text.split(',').map(number).collect()
+}
+
 /// `[{ medium = "ethanol", thickness_nm = 100 }]`
 pub(super) fn coating(text: &str) -> Result<Vec<FilmSpec>, String> {
     FilmSpec::parse_list(text).map_err(|error| error.to_string())

@@ -27,7 +27,7 @@ mod sizes;
 mod tests;
 mod validate;
 
-pub use choice::{AxisRatioKey, CantingKeys, Choice, Named, ShapeName};
+pub use choice::{AxisRatioKey, CantingKeys, Choice, LengthUnit, Named, ShapeName};
 // Batches use them, and batches need HDF5.
 pub use crate::math::bytes::human_bytes;
 #[cfg(feature = "hdf5")]

@@ -61,6 +61,10 @@ fn known_keys_are_those_of_the_structs() {
         particle: ParticleKeys {
             shape: Some(Choice(ShapeName::Sphere)),
             apex_deg: Some(60.0),
+            coefficients: Some(vec![1.0]),
+            exponent: Some(2.0),
+            file: Some("gem.obj".into()),
+            file_unit: Some(Choice(LengthUnit::Metre)),
             radius_mm: Some(1.0),
             radius_um: Some(1.0),
             diameter_mm: Some(1.0),

@@ -88,6 +88,7 @@ impl SceneFile {
         };
         for part in scene.parts() {
             part.check_crystal()?;
+            part.check_outline()?;
             part.check_method(scene.modes.is_empty())?;
             part.check_means()?;
             part.check_radial()?;

@@ -20,11 +20,12 @@
 //! ```
 
 mod body;
-mod crystal;
 mod error;
 mod level;
 mod line;
+mod outlines;
 mod own;
+pub(crate) mod polyhedron;
 mod raindrop;
 #[cfg(test)]
 mod samples;
@@ -35,9 +36,9 @@ mod tangent;
 
 pub(crate) use body::Body;
 pub use body::Shape;
-pub use crystal::Crystal;
 pub use error::ShapeError;
 pub use own::{Outline, OwnBody};
+pub use polyhedron::{Crystal, Format as MeshFormat, Mesh, MeshError};
 pub use raindrop::{AxisRatioLaw, RaindropModel};
 pub use silhouette::Silhouette;
 pub(crate) use tangent::Tangent;

@@ -33,6 +33,7 @@ use crate::math::gauss_legendre;
 use crate::math::jet::Jet;
 use crate::math::scalar::Scalar;
 use num_complex::Complex64;
+use std::f64::consts::PI;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -64,6 +65,10 @@ impl<O: Outline> AnyOutline for O {
 /// A body by its own formula. Two are equal when they are copies of one.
 #[derive(Clone, Debug)]
 pub struct OwnBody(Arc<Own>);
+
+/// Steps along an outline by which dents are looked for, and the turn to the wrong side that is rounding.
+const DENT_STEPS: usize = 360;
+const DENT: f64 = 1e-10;
 
 /// What a body of one's own holds.
 #[derive(Debug)]
@@ -132,6 +137,25 @@ impl OwnBody {
         &self.0.name
     }
 
+    /// The angle from straight down (radians) at which its outline is dented, if it is: light that has left the
+    /// body could enter it there again.
+    pub(crate) fn dent(&self) -> Option<f64> {
+        let at = |step: usize| {
+            let theta = PI * step as f64 / DENT_STEPS as f64;
+            let reach = self.0.radii.1 * self.0.unit * 2.0;
+            let radius = radius(self.0.outline.as_ref(), theta.cos(), reach).unwrap_or(self.0.unit);
+            [radius / self.0.unit * theta.sin(), radius / self.0.unit * theta.cos()]
+        };
+        let points: Vec<[f64; 2]> = (0..=DENT_STEPS).map(at).collect();
+        let bends = |w: &[[f64; 2]]| {
+            let [a, b] =
+                [[w[1][0] - w[0][0], w[1][1] - w[0][1]], [w[2][0] - w[1][0], w[2][1] - w[1][1]]];
+            a[0] * b[1] - a[1] * b[0] < DENT
+        };
+        let place = points.windows(3).position(|w| !bends(w))?;
+        Some(PI * (place + 1) as f64 / DENT_STEPS as f64)
+    }
+
     pub(super) fn is_sphere(&self) -> bool {
         // what the margins of the extremes leave of equal radii
         self.0.radii.1 - self.0.radii.0 < 0.002 * (1.0 + 1e-9)
@@ -192,7 +216,7 @@ impl OwnBody {
 }
 
 /// `F` at a distance from the centre, towards the depth `μ` times that distance.
-fn value(outline: &impl AnyOutline, mu: f64, r: f64) -> Result<f64, String> {
+fn value(outline: &(impl AnyOutline + ?Sized), mu: f64, r: f64) -> Result<f64, String> {
     let value = outline.real(r * r, mu * r).value;
     if value.is_finite() {
         Ok(value)
@@ -218,7 +242,7 @@ fn reach(outline: &impl AnyOutline) -> Result<f64, String> {
 }
 
 /// The distance of the surface from the centre, in the unit of the formula.
-fn radius(outline: &impl AnyOutline, mu: f64, reach: f64) -> Result<f64, String> {
+fn radius(outline: &(impl AnyOutline + ?Sized), mu: f64, reach: f64) -> Result<f64, String> {
     let place = |step: usize| reach * (step as f64 / STEPS as f64).powi(2);
     let mut inside = None;
     for step in 1..=STEPS {

@@ -112,6 +112,8 @@ mod tests {
         assert!(small.to_string().contains("from 20 and 5 on"), "{small}");
         let thin = refused(&COLUMN.replace("1.2", "0.03"));
         assert!(matches!(thin, PlanError::SmallCrystal { .. }), "{thin}");
+        let fine = refused("shape = \"brilliant\"\nradius_um = 2.5\nmedium = \"ice\"");
+        assert!(matches!(fine, PlanError::SmallFacets { facets: 73, .. }), "{fine}");
         let bubble = refused(&COLUMN.replace("\"ice\"", "1.0\noutside = 1.31"));
         assert!(matches!(bubble, PlanError::ThinnerBody { .. }), "{bubble}");
     }
@@ -131,6 +133,26 @@ mod tests {
                 format!("{COLUMN}\norientation = \"random\"\ncanting = {{ deviation_deg = 1 }}"),
                 "",
                 "tilts",
+            ),
+            (COLUMN.replace("hexagonal-column", "hollow-column"), "", "not convex"),
+            (COLUMN.replace("hexagonal-column", "mesh"), "", "axis ratio"),
+            ("shape = \"mesh\"\nradius_um = 5".into(), "", "particle.file is missing"),
+            ("shape = \"mesh\"\nfile = \"a.step\"\nradius_um = 5".into(), "", ".obj, .stl, .ply"),
+            (
+                "shape = \"sphere\"\nfile = \"a.obj\"\nradius_um = 5".into(),
+                "",
+                "only shape = \"mesh\"",
+            ),
+            ("shape = \"harmonics\"\nradius_um = 5".into(), "", "coefficients is missing"),
+            (
+                "shape = \"harmonics\"\ncoefficients = [1, 0, 0, 0, 0.3]\nradius_um = 50".into(),
+                "[model]\nmethod = \"rays\"",
+                "dented",
+            ),
+            (
+                "shape = \"superellipsoid\"\naxis_ratio = 1\nexponent = 1.5\nradius_um = 5".into(),
+                "",
+                "2 to 4",
             ),
             (
                 "shape = \"sphere\"\nradius_um = 5".into(),

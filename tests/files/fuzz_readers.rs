@@ -10,6 +10,7 @@ use gonio::hdf5::{self, AxisValues, SweepAxis, SweepCoordinate, SweepReader, Swe
 use gonio::medium::MediumSpec;
 use gonio::phase_table::Quantity;
 use gonio::scene::{Scene, SceneFile, SceneText};
+use gonio::shape::{Mesh, MeshFormat};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
@@ -323,4 +324,93 @@ fn tables() {
         });
         table || sweep
     });
+}
+
+/// A hexagonal plate of quarter heights: corners, and its facets as polygons.
+fn plate() -> (Vec<[f64; 3]>, Vec<Vec<usize>>) {
+    let ring = |z: f64| {
+        (0..6).map(move |k| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos();
+            [cos, sin, z]
+        })
+    };
+    let sides = (0..6).map(|k| vec![k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k]);
+    let ends = [(0..6).rev().collect(), (6..12).collect()];
+    (ring(-0.25).chain(ring(0.25)).collect(), sides.chain(ends).collect())
+}
+
+fn triangles(facets: &[Vec<usize>]) -> Vec<[usize; 3]> {
+    facets.iter().flat_map(|f| (1..f.len() - 1).map(|k| [f[0], f[k], f[k + 1]])).collect()
+}
+
+fn mesh(what: &'static str, format: MeshFormat, seeds: &[Vec<u8>]) {
+    fuzz(what, 10_000, "mesh", seeds, |_, bytes| Mesh::parse("mesh", format, bytes).is_ok());
+}
+
+#[test]
+fn meshes_obj() {
+    let (corners, facets) = plate();
+    let mut text = String::from("# plate\nmtllib plate.mtl\no plate\n");
+    corners.iter().for_each(|[x, y, z]| text += &format!("v {x} {y} {z}\n"));
+    text += "vn 0 0 1\nvt 0 1\ns off\nusemtl ice\n";
+    let of = |facet: &Vec<usize>, word: &dyn Fn(usize) -> String| -> String {
+        let words: Vec<String> = facet.iter().map(|&i| word(i)).collect();
+        format!("f {}\n", words.join(" "))
+    };
+    let plain: String = facets.iter().map(|f| of(f, &|i| (i + 1).to_string())).collect();
+    let full: String =
+        facets.iter().map(|f| of(f, &|i| format!("{}/1/1", i as i64 - 12))).collect();
+    mesh("obj", MeshFormat::Obj, &texts(&[&(text.clone() + &plain), &(text + &full)]));
+}
+
+#[test]
+fn meshes_stl() {
+    let (corners, facets) = plate();
+    let facets = triangles(&facets);
+    let mut text = String::from("solid plate\n");
+    let mut binary = [vec![b'-'; 80], (facets.len() as u32).to_le_bytes().to_vec()].concat();
+    for facet in facets {
+        text += "facet normal 0 0 1\nouter loop\n";
+        binary.extend([0; 12]);
+        for [x, y, z] in facet.map(|i| corners[i].map(|x| x as f32)) {
+            text += &format!("vertex {x} {y} {z}\n");
+            binary.extend([x, y, z].iter().flat_map(|x| x.to_le_bytes()));
+        }
+        text += "endloop\nendfacet\n";
+        binary.extend([0; 2]);
+    }
+    text += "endsolid plate\n";
+    mesh("stl", MeshFormat::Stl, &[text.into_bytes(), binary]);
+}
+
+#[test]
+fn meshes_ply() {
+    let (corners, facets) = plate();
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment plate\nelement vertex 12\nproperty float x\nproperty double y\n\
+             property float z\nproperty uchar red\nelement face 8\nproperty list uchar int vertex_indices\n\
+             end_header\n"
+        )
+    };
+    let mut text = header("ascii");
+    let mut big = header("binary_big_endian").into_bytes();
+    let mut little = header("binary_little_endian").into_bytes();
+    for [x, y, z] in &corners {
+        text += &format!("{x} {y} {z} 7\n");
+        let (u, w) = (*x as f32, *z as f32);
+        big.extend([&u.to_be_bytes()[..], &y.to_be_bytes(), &w.to_be_bytes(), &[7]].concat());
+        little.extend([&u.to_le_bytes()[..], &y.to_le_bytes(), &w.to_le_bytes(), &[7]].concat());
+    }
+    for facet in &facets {
+        let words: Vec<String> = facet.iter().map(ToString::to_string).collect();
+        text += &format!("{} {}\n", facet.len(), words.join(" "));
+        big.push(facet.len() as u8);
+        little.push(facet.len() as u8);
+        for &i in facet {
+            big.extend((i as i32).to_be_bytes());
+            little.extend((i as i32).to_le_bytes());
+        }
+    }
+    mesh("ply", MeshFormat::Ply, &[text.into_bytes(), big, little]);
 }

@@ -8,6 +8,7 @@ mod color_reference;
 mod dyed_drop;
 mod error_estimate;
 mod facets;
+mod facets_claims;
 mod farfield_complex_wavefront;
 mod farfield_huygens;
 mod farfield_orders;

@@ -49,6 +49,9 @@ pub struct Thresholds {
     /// Least size parameter of a body of facets, and least half width (between parallel planes, over the reduced
     /// wavelength): below, fields on facets are no plane waves cut off at edges.
     pub least_facet_sizes: [f64; 2],
+    /// Least size parameter of the circle of a facet's area (mean over the surface): meshes of a sphere lose 3 % of
+    /// the power at 22, a third at 11 (validation/facets.md).
+    pub least_facet: f64,
     /// Relative error of intensities (root mean square over bands, one orientation) times the size parameter:
     /// measured against discrete dipoles for a hexagonal column (validation/facets.md).
     pub error_of_facets: f64,
@@ -210,6 +213,7 @@ impl Thresholds {
         doubtful_phase_shift: 20.0,
         largest_k_over_n: 0.03,
         least_facet_sizes: [20.0, 5.0],
+        least_facet: 12.0,
         error_of_facets: 6.0,
         highest_order: 24,
         least_last_order: 3,

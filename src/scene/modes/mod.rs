@@ -55,7 +55,7 @@ const ADD_UP: f64 = 1e-3;
 impl Mode {
     fn new(keys: &ParticleKeys, folder: &Path, wavelengths: &[f64]) -> Result<Self, SceneError> {
         let size_distribution = size_distribution(keys, folder)?;
-        let particle = particle_of(keys, size_distribution.as_ref())?;
+        let particle = particle_of(keys, size_distribution.as_ref(), folder)?;
         let radius = particle.radius();
         let stand = keys.orientation.map_or_else(|| Ok(Default::default()), |key| key.checked());
         let (fixed_angles, orientations) = stand?;
@@ -289,7 +289,9 @@ impl Scene {
                 Particle::Spheroid { radius, axis_ratio: law.unwrap_or(*axis_ratio) }
             }
             Particle::Raindrop { model, .. } => Particle::Raindrop { radius, model: *model },
-            Particle::Crystal { crystal, .. } => Particle::Crystal { radius, crystal: *crystal },
+            Particle::Crystal { crystal, .. } => {
+                Particle::Crystal { radius, crystal: crystal.clone() }
+            }
             Particle::Own { body, .. } => Particle::Own { radius, body: body.clone() },
         }
     }

@@ -2,14 +2,16 @@
 
 pub(super) mod medium;
 mod own;
+mod smooth;
 
 use crate::scene::choice::{AxisRatioKey, CantingKeys, Choice, Named, ShapeName, chosen};
 use crate::scene::error::SceneError;
 use crate::scene::file::ParticleKeys;
 use crate::scene::{Method, Particle};
-use crate::shape::{Crystal, RaindropModel};
+use crate::shape::{Crystal, Mesh, RaindropModel};
 use crate::size_distribution::SizeDistribution;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Axis ratios beyond these are needles and discs, for which neither rays nor drops are meant.
 const AXIS_RATIOS: std::ops::RangeInclusive<f64> = 0.1..=10.0;
@@ -29,17 +31,20 @@ pub(in crate::scene) fn is_by_rays(keys: &ParticleKeys, method: Method) -> bool 
 pub(in crate::scene) fn particle_of(
     keys: &ParticleKeys,
     sizes: Option<&SizeDistribution>,
+    folder: &Path,
 ) -> Result<Particle, SceneError> {
     let shape = chosen(keys.shape, "particle.shape")?;
+    only_of_meshes(keys, shape)?;
+    smooth::only_of_outlines(keys, shape)?;
     let radius = |accept: &dyn Fn(f64) -> Result<(), String>| match sizes {
         Some(sizes) => Ok(sizes.effective_radius()),
         None => radius(keys, accept),
     };
-    let proportioned = shape == ShapeName::Spheroid || shape.is_crystal();
-    if let (Some(ratio), true) = (keys.axis_ratio, !proportioned || shape == ShapeName::Octahedron)
-    {
+    let proportioned =
+        matches!(shape, ShapeName::Spheroid | ShapeName::Superellipsoid) || shape.is_crystal();
+    if let (Some(ratio), true) = (keys.axis_ratio, !proportioned || shape.is_regular()) {
         let accepted = format!(
-            "only a spheroid or a crystal with a length has an axis ratio; the shape is {}",
+            "only a spheroid, a superellipsoid or a crystal with a length has an axis ratio; the shape is {}",
             shape.name()
         );
         return Err(SceneError::invalid("particle.axis_ratio", ratio, accepted));
@@ -50,12 +55,17 @@ pub(in crate::scene) fn particle_of(
     }
     if let (Some(apex), false) = (keys.apex_deg, shape.has_apex()) {
         let accepted = format!(
-            "only a triangular-prism, a pyramidal-crystal and a bullet have an apex; the shape is {}",
+            "only a triangular-prism, a pyramidal-crystal, a bullet and a tapered-column have an apex; the shape is {}",
             shape.name()
         );
         return Err(SceneError::invalid("particle.apex_deg", apex, accepted));
     }
     match shape {
+        ShapeName::Mesh => mesh(keys, sizes, folder),
+        ShapeName::Harmonics | ShapeName::Superellipsoid => Ok(Particle::Own {
+            radius: radius(&plain_radius)?,
+            body: smooth::outline(keys, shape)?,
+        }),
         crystal if crystal.is_crystal() => Ok(Particle::Crystal {
             radius: radius(&plain_radius)?,
             crystal: self::crystal(crystal, keys)?,
@@ -114,12 +124,70 @@ fn crystal(shape: ShapeName, keys: &ParticleKeys) -> Result<Crystal, SceneError>
         }
         ShapeName::Cuboid => Crystal::Cuboid { axis_ratio: axis_ratio()? },
         ShapeName::Octahedron => Crystal::Octahedron,
+        ShapeName::Brilliant => Crystal::Brilliant,
+        ShapeName::TaperedColumn => {
+            Crystal::TaperedColumn { axis_ratio: axis_ratio()?, apex: apex()? }
+        }
         ShapeName::PyramidalCrystal => {
             Crystal::PyramidalCrystal { axis_ratio: axis_ratio()?, apex: apex()? }
         }
         ShapeName::Bullet => Crystal::Bullet { axis_ratio: axis_ratio()?, apex: apex()? },
         _ => Crystal::HexagonalColumn { axis_ratio: axis_ratio()? },
     })
+}
+
+/// Keys that say of a mesh where it is, and how large.
+fn only_of_meshes(keys: &ParticleKeys, shape: ShapeName) -> Result<(), SceneError> {
+    if shape == ShapeName::Mesh {
+        return Ok(());
+    }
+    let file = keys.file.as_ref().map(|file| ("particle.file", file.display().to_string()));
+    let unit = keys.file_unit.map(|unit| ("particle.file_unit", unit.0.name().to_string()));
+    match file.or(unit) {
+        None => Ok(()),
+        Some((key, value)) => {
+            let accepted =
+                format!("only shape = \"mesh\" has a file; the shape is {}", shape.name());
+            Err(SceneError::invalid(key, value, accepted))
+        }
+    }
+}
+
+/// The closed convex body of a file in `folder`.
+fn mesh(
+    keys: &ParticleKeys,
+    sizes: Option<&SizeDistribution>,
+    folder: &Path,
+) -> Result<Particle, SceneError> {
+    const KEY: &str = "particle.file";
+    let Some(file) = &keys.file else {
+        let accepted = "the mesh of a closed convex body, such as \"gem.obj\" (.obj, .stl, .ply)";
+        return Err(SceneError::missing(KEY, accepted));
+    };
+    let mesh = Mesh::load(&folder.join(file))
+        .map_err(|error| SceneError::invalid(KEY, file.display(), error.to_string()))?;
+    let radius = match (keys.file_unit, sizes) {
+        (Some(unit), None) if !has_size(keys) => {
+            let radius_mm = mesh.radius() * unit.0.millimetres();
+            plain_radius(radius_mm).map_err(|accepted| {
+                let value =
+                    format!("{} (a radius of equal volume of {radius_mm} mm)", unit.0.name());
+                SceneError::invalid("particle.file_unit", value, accepted)
+            })?;
+            radius_mm * 1e-3
+        }
+        (Some(unit), _) => {
+            let accepted = "the size is given twice; keep file_unit, or the radius of equal volume";
+            return Err(SceneError::invalid("particle.file_unit", unit.0.name(), accepted));
+        }
+        (None, Some(sizes)) => sizes.effective_radius(),
+        (None, None) => radius(keys, plain_radius)?,
+    };
+    Ok(Particle::Crystal { radius, crystal: Crystal::Mesh(Arc::new(mesh)) })
+}
+
+fn has_size(keys: &ParticleKeys) -> bool {
+    keys.radius_mm.or(keys.radius_um).or(keys.diameter_mm).is_some()
 }
 
 /// What is wrong with a distribution of sizes.
@@ -134,7 +202,7 @@ pub(in crate::scene) fn size_distribution(
     folder: &Path,
 ) -> Result<Option<SizeDistribution>, SceneError> {
     let Some(sizes) = &keys.size_distribution else { return Ok(None) };
-    if keys.radius_mm.or(keys.radius_um).or(keys.diameter_mm).is_some() {
+    if has_size(keys) {
         let accepted = "the size is given twice; leave out radius_mm, radius_um and diameter_mm";
         return Err(sizes_error(keys, accepted));
     }

@@ -32,6 +32,10 @@ impl Scene {
         let struck = [
             "axis_ratio",
             "apex_deg",
+            "file",
+            "coefficients",
+            "exponent",
+            "file_unit",
             "canting",
             "model",
             "radius_um",

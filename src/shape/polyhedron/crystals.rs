@@ -1,8 +1,8 @@
 //! Crystals and prisms by their proportions. The axis (c) is along z; a facet's normal is never along x where
 //! the cross-section is a hexagon: corners are.
 
+use super::crystal::Crystal;
 use super::{Body, BodyError};
-use crate::shape::Crystal;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -28,8 +28,8 @@ fn angle(name: &'static str, value: f64) -> Result<f64, BodyError> {
 }
 
 /// Corners of a polygon at a height.
-fn ring(outline: &[(f64, f64)], z: f64) -> impl Iterator<Item = DVec3> {
-    outline.iter().map(move |&(x, y)| DVec3::new(x, y, z))
+fn ring(outline: &[(f64, f64)], z: f64, scale: f64) -> impl Iterator<Item = DVec3> {
+    outline.iter().map(move |&(x, y)| DVec3::new(scale * x, scale * y, z))
 }
 
 fn hexagon() -> Vec<(f64, f64)> {
@@ -38,17 +38,19 @@ fn hexagon() -> Vec<(f64, f64)> {
 
 /// A right prism over an outline that runs anticlockwise.
 fn prism(outline: &[(f64, f64)], height: f64) -> Result<Body, BodyError> {
-    capped(outline, [-0.5 * height, 0.5 * height], [None, None])
+    capped(outline, [(-0.5 * height, 1.0), (0.5 * height, 1.0)], [None, None])
 }
 
-/// A prism between two heights, with a tip beyond either end where one is given.
+/// A prism between two heights, wider or narrower at each by a factor, with a tip beyond either end where one
+/// is given.
 fn capped(
     outline: &[(f64, f64)],
-    [low, high]: [f64; 2],
+    [(low, wide), (high, narrow)]: [(f64, f64); 2],
     tips: [Option<f64>; 2],
 ) -> Result<Body, BodyError> {
     let count = outline.len();
-    let mut corners: Vec<DVec3> = ring(outline, low).chain(ring(outline, high)).collect();
+    let mut corners: Vec<DVec3> =
+        ring(outline, low, wide).chain(ring(outline, high, narrow)).collect();
     let side = |k: usize| {
         let next = (k + 1) % count;
         vec![k, next, count + next, count + k]
@@ -84,6 +86,7 @@ impl Body {
     /// Proportions that are none.
     pub fn of(crystal: &Crystal) -> Result<Self, BodyError> {
         match *crystal {
+            Crystal::Mesh(ref mesh) => Ok(mesh.body().clone()),
             Crystal::HexagonalColumn { axis_ratio } => Self::hexagonal_column(axis_ratio),
             Crystal::TriangularPrism { axis_ratio, apex } => {
                 Self::triangular_prism(apex, axis_ratio)
@@ -94,6 +97,8 @@ impl Body {
                 Self::pyramidal_crystal(axis_ratio, apex)
             }
             Crystal::Bullet { axis_ratio, apex } => Self::bullet(axis_ratio, apex),
+            Crystal::TaperedColumn { axis_ratio, apex } => Self::tapered_column(axis_ratio, apex),
+            Crystal::Brilliant => Self::brilliant(),
         }
     }
 
@@ -143,7 +148,7 @@ impl Body {
     /// Proportions that are none.
     pub fn pyramidal_crystal(axis_ratio: f64, apex: f64) -> Result<Self, BodyError> {
         let (half, tip) = (ratio("axis_ratio", axis_ratio)?, tip(angle("apex", apex)?));
-        capped(&hexagon(), [-half, half], [Some(-half - tip), Some(half + tip)])
+        capped(&hexagon(), [(-half, 1.0), (half, 1.0)], [Some(-half - tip), Some(half + tip)])
     }
 
     /// A bullet: a hexagonal column with a pyramid on its lower end.
@@ -152,9 +157,75 @@ impl Body {
     /// Proportions that are none.
     pub fn bullet(axis_ratio: f64, apex: f64) -> Result<Self, BodyError> {
         let (half, tip) = (ratio("axis_ratio", axis_ratio)?, tip(angle("apex", apex)?));
-        capped(&hexagon(), [-half, half], [Some(-half - tip), None])
+        capped(&hexagon(), [(-half, 1.0), (half, 1.0)], [Some(-half - tip), None])
     }
 }
+
+impl Body {
+    /// A hexagonal column that narrows upwards; `axis_ratio` is its length over its width from corner to corner
+    /// half-way up, `apex` the angle between opposite sides (radians).
+    ///
+    /// # Errors
+    /// Proportions that are none; sides that meet below the upper end.
+    pub fn tapered_column(axis_ratio: f64, apex: f64) -> Result<Self, BodyError> {
+        let half = ratio("axis_ratio", axis_ratio)?;
+        let narrowing = half / tip(angle("apex", apex)?);
+        if narrowing >= LEAST_END {
+            let accepted = "an angle at which opposite sides do not meet below the upper end";
+            return Err(BodyError::Proportion { name: "apex", value: apex, accepted });
+        }
+        capped(&hexagon(), [(-half, 1.0 + narrowing), (half, 1.0 - narrowing)], [None, None])
+    }
+
+    /// A round brilliant of 73 facets (16 of them the girdle), its table upwards, in the proportions of Tolkowsky,
+    /// *Diamond Design* (1919): table 53 % of the width, crown 34.5°, pavilion 40.75°; girdle 2 %, stars half-way
+    /// to the girdle, lower halves three quarters of the way to the culet.
+    ///
+    /// # Errors
+    /// None: its proportions are fixed.
+    pub fn brilliant() -> Result<Self, BodyError> {
+        let (table, girdle, star, lower) = (0.53, 0.02, 0.5, 0.75);
+        let [crown, pavilion] = [34.5f64, 40.75].map(|degrees| degrees.to_radians().tan());
+        // between two main facets
+        let (step, aside) = (TAU / 16.0, (TAU / 16.0).cos());
+        let at = |radius: f64, turn: usize, z: f64| {
+            let (sin, cos) = (step * turn as f64).sin_cos();
+            DVec3::new(radius * cos, radius * sin, z)
+        };
+        let star_radius = (1.0 - star) * table * aside + star;
+        let star_height = girdle + (1.0 - star_radius * aside) * crown;
+        let lower_height = -girdle - (1.0 - (1.0 - lower) * aside) * pavilion;
+        // corners: table, star tips, girdle above and below, tips of the lower halves, culet
+        let mut corners: Vec<DVec3> = Vec::new();
+        corners.extend((0..8).map(|k| at(table, 2 * k, girdle + (1.0 - table) * crown)));
+        corners.extend((0..8).map(|k| at(star_radius, 2 * k + 1, star_height)));
+        corners.extend((0..16).map(|k| at(1.0, k, girdle)));
+        corners.extend((0..16).map(|k| at(1.0, k, -girdle)));
+        corners.extend((0..8).map(|k| at(1.0 - lower, 2 * k + 1, lower_height)));
+        corners.push(DVec3::new(0.0, 0.0, -girdle - pavilion));
+        let (star, above, below, tip) = (8, 16, 32, 48);
+        let mut loops = vec![(0..8).collect::<Vec<usize>>()];
+        for k in 0..8 {
+            let (next, last, main) = ((k + 1) % 8, (k + 7) % 8, 2 * k);
+            let (half, after) = (main + 1, (main + 2) % 16);
+            loops.extend([
+                vec![k, star + k, next],
+                vec![k, star + last, above + main, star + k],
+                vec![star + k, above + main, above + half],
+                vec![star + k, above + half, above + after],
+                vec![above + main, below + main, below + half, above + half],
+                vec![above + half, below + half, below + after, above + after],
+                vec![tip + k, below + half, below + main],
+                vec![tip + k, below + after, below + half],
+                vec![56, tip + k, below + main, tip + last],
+            ]);
+        }
+        Self::new(&corners, &loops)
+    }
+}
+
+/// Share of its width that a tapered column may lose on the way from its middle to its end.
+const LEAST_END: f64 = 0.98;
 
 #[cfg(test)]
 mod tests {
@@ -176,6 +247,8 @@ mod tests {
             (Body::octahedron(), 8, 6),
             (Body::pyramidal_crystal(1.0, 0.98), 18, 14),
             (Body::bullet(1.0, 0.98), 13, 13),
+            (Body::tapered_column(2.0, 0.3), 8, 12),
+            (Body::brilliant(), 73, 57),
         ] {
             let body = body.unwrap();
             assert_eq!((body.facets().len(), body.vertices().len()), (facets, corners));
@@ -189,6 +262,12 @@ mod tests {
         assert!((wedge(&prism, 0, 1) - 0.5).abs() < 1e-12);
         let pyramid = Body::pyramidal_crystal(1.0, 0.98).unwrap();
         assert!((wedge(&pyramid, 6, 9) - 0.98).abs() < 1e-12);
+        let tapered = Body::tapered_column(1.5, 0.2).unwrap();
+        assert!((wedge(&tapered, 1, 4) - 0.2).abs() < 1e-12);
+        // crown and pavilion of the gem by their inclinations
+        let gem = Body::brilliant().unwrap();
+        let tilt = |k: usize| gem.facets()[k].normal.z.abs().acos().to_degrees();
+        assert!((tilt(2) - 34.5).abs() < 1e-9 && (tilt(9) - 40.75).abs() < 1e-9);
         let octahedron = Body::octahedron().unwrap();
         assert!((wedge(&octahedron, 0, 1).cos() + 1.0 / 3.0).abs() < 1e-12, "109.47°");
     }
@@ -199,6 +278,7 @@ mod tests {
             assert!(Body::hexagonal_column(wrong).is_err() && Body::cuboid(wrong).is_err());
             assert!(Body::triangular_prism(wrong, 1.0).is_err() || wrong == 1.0);
             assert!(Body::bullet(1.0, wrong).is_err());
+            assert!(Body::tapered_column(1.0, wrong).is_err() || wrong == 1.0);
         }
         let error = Body::hexagonal_column(0.0).unwrap_err().to_string();
         assert!(error.contains("axis_ratio = 0") && error.contains("0.01 to 100"), "{error}");

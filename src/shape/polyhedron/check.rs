@@ -7,11 +7,13 @@ use std::collections::HashMap;
 /// Largest coordinate that is taken for a length.
 const LARGEST: f64 = 1e100;
 /// Most facets: every pair of a beam and a facet is looked at.
-const MOST_FACETS: usize = 1000;
+pub(super) const MOST_FACETS: usize = 1000;
 /// Area (of a facet) and thickness (of a body) below which there is none, relative to the body's size.
 const THIN: f64 = 1e-6;
-/// Distance of a corner from the plane it should be in or behind, relative to the body's size.
-const FLAT: f64 = 1e-9;
+
+/// Distance of a corner from the plane it should be in or behind, relative to the body's size: files have six
+/// or seven digits. Phases are off by as many radians times the size parameter.
+const FLAT: f64 = 5e-6;
 
 /// Why corners and facets make no body.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -56,20 +58,36 @@ pub(super) fn coordinates(vertices: &[DVec3]) -> Result<(), BodyError> {
     Ok(())
 }
 
+/// Whether a body has so many.
+pub(super) fn number(loops: &[Vec<usize>]) -> Result<(), BodyError> {
+    if (4..=MOST_FACETS).contains(&loops.len()) {
+        return Ok(());
+    }
+    Err(BodyError::Facets { facets: loops.len() })
+}
+
 /// Every facet is a flat convex polygon, and every edge is shared by two that run along it in opposite ways.
 pub(super) fn closed(vertices: &[DVec3], loops: &[Vec<usize>]) -> Result<(), BodyError> {
-    if !(4..=MOST_FACETS).contains(&loops.len()) {
-        return Err(BodyError::Facets { facets: loops.len() });
-    }
     let mut edges: HashMap<(usize, usize), usize> = HashMap::new();
+    let mut conflicts: HashMap<usize, usize> = HashMap::new();
+    let mut clashes: Vec<[usize; 4]> = Vec::new();
     for (place, corners) in loops.iter().enumerate() {
         let facet = place + 1;
         polygon(vertices, corners, facet)?;
         for (from, to) in pairs(corners) {
             if let Some(other) = edges.insert((from, to), facet) {
-                return Err(BodyError::Flipped { facet, other, from: from + 1, to: to + 1 });
+                clashes.push([facet, other, from + 1, to + 1]);
+                for of in [facet, other] {
+                    *conflicts.entry(of).or_default() += 1;
+                }
             }
         }
+    }
+    // of two facets that run the same way that is turned over which disagrees with more of its neighbours
+    let worst = |[a, b, ..]: &[usize; 4]| conflicts[a].max(conflicts[b]);
+    if let Some(&[a, b, from, to]) = clashes.iter().max_by_key(|clash| worst(clash)) {
+        let (facet, other) = if conflicts[&b] > conflicts[&a] { (b, a) } else { (a, b) };
+        return Err(BodyError::Flipped { facet, other, from, to });
     }
     for (place, corners) in loops.iter().enumerate() {
         for (from, to) in pairs(corners) {

@@ -1,7 +1,10 @@
-//! Crystals and prisms by their proportions; their facets stand in [`crate::facets`].
+//! Crystals and prisms by their proportions, and meshes; how light goes through them stands in [`crate::facets`].
+
+use super::mesh::Mesh;
+use std::sync::Arc;
 
 /// A convex body of flat facets. Axis ratios are length over width, angles radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Crystal {
     /// A hexagonal column (or plate): length over width from corner to corner.
     HexagonalColumn {
@@ -36,6 +39,17 @@ pub enum Crystal {
         /// Between opposite facets of the pyramid.
         apex: f64,
     },
+    /// A hexagonal column that narrows upwards.
+    TaperedColumn {
+        /// Length over the width half-way up.
+        axis_ratio: f64,
+        /// Between opposite sides.
+        apex: f64,
+    },
+    /// A round brilliant.
+    Brilliant,
+    /// A closed convex mesh of a file.
+    Mesh(Arc<Mesh>),
 }
 
 impl Crystal {
@@ -53,6 +67,9 @@ impl Crystal {
             Crystal::Octahedron => "octahedron",
             Crystal::PyramidalCrystal { .. } => "pyramidal-crystal",
             Crystal::Bullet { .. } => "bullet",
+            Crystal::TaperedColumn { .. } => "tapered-column",
+            Crystal::Brilliant => "brilliant",
+            Crystal::Mesh(_) => "mesh",
         }
     }
 }

@@ -1,11 +1,15 @@
 //! A closed convex body of flat facets, scaled so that the sphere of equal volume has radius 1.
 
 mod check;
+mod crystal;
 mod crystals;
 mod facet;
+mod mesh;
 
 pub use check::BodyError;
+pub use crystal::Crystal;
 pub use facet::Facet;
+pub use mesh::{Format, Mesh, MeshError};
 
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -35,7 +39,13 @@ impl Body {
     /// Coordinates that are no sizes, facets that are none, edges that do not close, facets turned inside out,
     /// a body without thickness or with a hollow; the message names the facet, counted from 1.
     pub fn new(vertices: &[DVec3], loops: &[Vec<usize>]) -> Result<Self, BodyError> {
+        Self::with_size(vertices, loops).map(|(body, _)| body)
+    }
+
+    /// The same, and the radius of the sphere of equal volume in units of the corners.
+    fn with_size(vertices: &[DVec3], loops: &[Vec<usize>]) -> Result<(Self, f64), BodyError> {
         check::coordinates(vertices)?;
+        check::number(loops)?;
         // checks compare with the body's size
         let middle = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
         let size = vertices.iter().map(|v| (*v - middle).length()).fold(0.0, f64::max);
@@ -49,7 +59,7 @@ impl Body {
         let (volume, centre) = body.moments();
         check::convex(&body.vertices, &body.facets, volume, body.surface())?;
         let scale = (4.0 / 3.0 * PI / volume).cbrt();
-        Ok(body.mapped(|v| (v - centre) * scale))
+        Ok((body.mapped(|v| (v - centre) * scale), size / scale))
     }
 
     /// The body with its corners mapped by what keeps its shape.
@@ -77,6 +87,12 @@ impl Body {
     /// Area of all its facets.
     pub fn surface(&self) -> f64 {
         self.facets.iter().map(|facet| facet.area(&self.vertices)).sum()
+    }
+
+    /// Radius of the circle that has a facet's area, a mean over the surface.
+    pub fn facet_radius(&self) -> f64 {
+        let areas = self.facets.iter().map(|facet| facet.area(&self.vertices));
+        areas.map(|area| area * (area / PI).sqrt()).sum::<f64>() / self.surface()
     }
 
     /// Area of its shadow in light of a direction.
