@@ -93,12 +93,12 @@ pub(super) fn advance<const W: usize>(
     records: &[OrderRecord<W>],
     sides: Sides,
 ) {
-    if target_cfg_f!(target_feature = "avx512f") {
-        advance_sides::<W, true, true>(blocks, records, sides);
-    } else if target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64")) {
-        advance_sides::<W, true, false>(blocks, records, sides);
-    } else {
-        advance_sides::<W, false, false>(blocks, records, sides);
+    let wide = target_cfg_f!(target_feature = "avx512f");
+    let fused = target_cfg_f!(any(target_feature = "fma", target_arch = "aarch64"));
+    match (wide, fused) {
+        (true, _) => advance_sides::<W, true, true>(blocks, records, sides),
+        (false, true) => advance_sides::<W, true, false>(blocks, records, sides),
+        (false, false) => advance_sides::<W, false, false>(blocks, records, sides),
     }
 }
 
