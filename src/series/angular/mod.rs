@@ -22,12 +22,14 @@
 //! Several series that want the same angles may share the recurrence too: it is half the work of one.
 //!
 //! Angles run in SIMD lanes, a block of lanes is carried over a chunk of orders whose
-//! coefficients stay in the first-level cache, and its state is kept between chunks ([`kernel`]).
+//! coefficients stay in the first-level cache, and its state is kept between chunks (`kernel`).
 
 mod kernel;
 
+pub use kernel::Waves;
+
 use crate::cancel;
-use kernel::{Block, LANES, advance, fill_records};
+use kernel::{Block, LANES, Sides, advance, fill_records};
 use num_complex::Complex64;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -45,16 +47,6 @@ pub struct AngleSet {
     /// For every asked angle: its place among the folded ones, and whether it lies beyond π/2.
     place: Vec<(usize, bool)>,
     sides: Sides,
-}
-
-/// Where the asked angles lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Sides {
-    /// All up to π/2.
-    Forward,
-    /// All beyond π/2.
-    Backward,
-    Both,
 }
 
 impl AngleSet {
@@ -100,9 +92,6 @@ impl AngleSet {
         self.place.is_empty()
     }
 }
-
-/// Partial-wave coefficients a_n and b_n; index 0 is n = 1.
-pub type Waves<'a> = (&'a [Complex64], &'a [Complex64]);
 
 /// Run all orders over some blocks.
 fn run<const W: usize>(blocks: &mut [Block<W>], series: &[Waves; W], sides: Sides) {
