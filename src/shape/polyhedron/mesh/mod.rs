@@ -15,6 +15,7 @@ use super::Body;
 use super::check::{self, BodyError};
 use glam::DVec3;
 use soup::{LARGEST_FILE, Soup, within_limits};
+use std::io::Read;
 use std::path::Path;
 
 pub use read::Format;
@@ -38,11 +39,14 @@ impl Mesh {
     pub fn load(path: &Path) -> Result<Self, MeshError> {
         let format = Format::of(path).ok_or(MeshError::Ending)?;
         let unreadable = |error: std::io::Error| MeshError::Unreadable(error.to_string());
-        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-        if bytes > LARGEST_FILE {
-            return Err(MeshError::TooLong { bytes });
+        let told = std::fs::metadata(path).map_err(unreadable)?.len();
+        if told > LARGEST_FILE {
+            return Err(MeshError::TooLong { bytes: told });
         }
-        let bytes = std::fs::read(path).map_err(unreadable)?;
+        // a length that is told need not be so: devices say 0, and go on
+        let mut bytes = Vec::new();
+        let file = std::fs::File::open(path).map_err(unreadable)?;
+        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(unreadable)?;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         Self::parse(&name, format, &bytes)
     }
@@ -309,5 +313,16 @@ mod tests {
             assert!(error.contains(words), "{error}");
         }
         assert_eq!(Mesh::load(Path::new("a.step")).unwrap_err(), MeshError::Ending);
+    }
+
+    /// What never ends is left where it is too long.
+    #[cfg(unix)]
+    #[test]
+    fn files_without_an_end_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let endless = folder.path().join("endless.obj");
+        std::os::unix::fs::symlink("/dev/zero", &endless).unwrap();
+        let error = Mesh::load(&endless).unwrap_err();
+        assert!(matches!(error, MeshError::TooLong { .. }), "{error}");
     }
 }

@@ -21,7 +21,7 @@ pub enum MeshError {
     Unreadable(String),
     #[error("no mesh by its ending; accepted: .obj, .stl, .ply")]
     Ending,
-    #[error("a file of {bytes} bytes; accepted: up to 33554432")]
+    #[error("a file of at least {bytes} bytes; accepted: up to 33554432")]
     TooLong { bytes: u64 },
     #[error(
         "{facets} facets, for which {:.1} GB would be taken; accepted: up to 200000, of which at most 1000 are left \
