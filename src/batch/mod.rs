@@ -60,6 +60,8 @@ pub enum BatchError {
         human_bytes(*needed), human_bytes(*limit)
     )]
     Memory { id: String, needed: u64, limit: u64 },
+    #[error("{id}: {files} changed since the plan was made; make the plan again")]
+    Changed { id: String, files: String },
     #[error("{id}: not a finite number in the phase function at {wavelength_nm} nm")]
     Numerical { id: String, wavelength_nm: f64 },
     #[error(transparent)]
@@ -88,6 +90,7 @@ impl Blame for BatchError {
             BatchError::Plan { .. }
             | BatchError::Invalid { .. }
             | BatchError::Memory { .. }
+            | BatchError::Changed { .. }
             | BatchError::Scene(_) => Fault::Input,
             BatchError::Simulate(error) => error.fault(),
             BatchError::Table(error) => error.fault(),

@@ -4,7 +4,7 @@ use super::sweep::Sweep;
 use super::{BatchError, invalid};
 use crate::pending_file::PendingFile;
 use crate::phase_table::variables::schema::FORMAT_VERSION;
-use crate::scene::{Scene, SceneFile, SceneText};
+use crate::scene::{Scene, SceneFile, SceneText, named_files};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -24,7 +24,8 @@ const LONGEST_LINE: u64 = 16 << 20;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedTable {
-    /// Hash of the physics (the resolved scene) and the version of the file format.
+    /// Hash of the physics (the resolved scene, the content of the files that it names) and the version of the
+    /// file format.
     pub id: String,
     /// Number of the line, from 0.
     pub index: usize,
@@ -56,6 +57,33 @@ impl PlannedTable {
         let name = format!("table {} of the plan", self.index);
         let text = SceneText::parse(&name, self.scene.clone())?;
         Ok(Scene::from_text(text, &SceneFile::default())?)
+    }
+
+    /// The id by what the named files hold at this moment.
+    fn id_now(&self) -> Result<String, BatchError> {
+        let mut hash = Sha256::new();
+        hash.update(format!("gonio table {FORMAT_VERSION}\n"));
+        hash.update(&self.scene);
+        for path in named_files(&self.scene) {
+            let content = std::fs::read(&path)
+                .map_err(|source| BatchError::Io { path: path.clone(), source })?;
+            hash.update(format!("\n{} {}\n", path.display(), content.len()));
+            hash.update(content);
+        }
+        Ok(hexadecimal(&hash.finalize(), ID_DIGITS))
+    }
+
+    /// A table that is there belongs to the files of the plan's day.
+    ///
+    /// # Errors
+    /// When a file that the scene names is gone or has changed since.
+    pub(super) fn check_files(&self) -> Result<(), BatchError> {
+        let files = named_files(&self.scene);
+        if files.is_empty() || self.id_now()? == self.id {
+            return Ok(());
+        }
+        let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
+        Err(BatchError::Changed { id: self.id.clone(), files: names.join(", ") })
     }
 
     /// Where the table of this line lies in the folder of the shards.
@@ -111,8 +139,8 @@ impl BatchPlan {
                 scene: scene_text,
             };
             let scene = table.scene()?;
-            table.id = id_of(&scene);
             table.scene = scene.toml;
+            table.id = table.id_now()?;
             Ok(table)
         });
         let tables: Vec<PlannedTable> = tables.collect::<Result<_, BatchError>>()?;
@@ -256,13 +284,6 @@ fn line(table: &PlannedTable) -> Vec<u8> {
     let mut line = serde_json::to_vec(table).unwrap_or_default();
     line.push(b'\n');
     line
-}
-
-fn id_of(scene: &Scene) -> String {
-    let mut hash = Sha256::new();
-    hash.update(format!("gonio table {FORMAT_VERSION}\n"));
-    hash.update(&scene.toml);
-    hexadecimal(&hash.finalize(), ID_DIGITS)
 }
 
 fn hexadecimal(bytes: &[u8], digits: usize) -> String {

@@ -78,6 +78,7 @@ pub fn compute(
     memory: Option<u64>,
 ) -> Result<Shard, BatchError> {
     let start = Instant::now();
+    table.check_files()?;
     let path = table.file(folder);
     let status = table.status(folder);
     let outcome = if status == ShardStatus::Done {

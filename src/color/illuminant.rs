@@ -13,7 +13,7 @@ static A: LazyLock<Tabulated<1>> =
 static DAYLIGHT: LazyLock<Tabulated<3>> = LazyLock::new(|| {
     Tabulated::parse(include_str!("../../data/color/cie_daylight_basis_S0S1S2.csv"))
 });
-static G173: LazyLock<Tabulated<3>> = LazyLock::new(|| {
+static G173: LazyLock<Tabulated<2>> = LazyLock::new(|| {
     Tabulated::parse(include_str!("../../data/color/astm_g173_03_280_1100nm.csv"))
 });
 
@@ -57,7 +57,7 @@ impl Illuminant {
             Illuminant::Daylight { temperature } => daylight(wavelength, temperature),
             Illuminant::BlackBody { temperature } => black_body(wavelength, temperature),
             Illuminant::Sun => G173.at(wavelength)[0],
-            Illuminant::SunGround => G173.at(wavelength)[2],
+            Illuminant::SunGround => G173.at(wavelength)[1],
             Illuminant::SunThroughAir { elevation } => {
                 G173.at(wavelength)[0] * (-rayleigh_depth(wavelength) * air_mass(elevation)).exp()
             }

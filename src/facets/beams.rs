@@ -126,7 +126,7 @@ pub struct Beams {
 }
 
 /// A facet counts as lit, or reached, from this cosine on.
-const GRAZING: f64 = 1e-9;
+pub(super) const GRAZING: f64 = 1e-9;
 /// Polygons below this area hold no light that sums could miss.
 const NO_AREA: f64 = 1e-18;
 
@@ -165,17 +165,17 @@ struct Splitter<'b> {
 }
 
 /// Directions of fields at an interface: across the plane of incidence.
-fn across(direction: DVec3, normal: DVec3) -> DVec3 {
+pub(super) fn across(direction: DVec3, normal: DVec3) -> DVec3 {
     let cross = direction.cross(normal);
     if cross.length_squared() > 1e-24 { cross.normalize() } else { normal.any_orthonormal_vector() }
 }
 
-fn real(v: DVec3) -> Vec3<f64> {
+pub(super) fn real(v: DVec3) -> Vec3<f64> {
     v.into()
 }
 
 /// A field turned by an interface: its parts across and along the plane of incidence times two coefficients.
-fn turned(
+pub(super) fn turned(
     field: Field,
     across: DVec3,
     [from, to]: [DVec3; 2],
@@ -196,17 +196,17 @@ fn size(field: Field) -> f64 {
     field.x.norm_sqr() + field.y.norm_sqr() + field.z.norm_sqr()
 }
 
-fn mean_square(fields: &[Field; 2]) -> f64 {
+pub(super) fn mean_square(fields: &[Field; 2]) -> f64 {
     0.5 * (size(fields[0]) + size(fields[1]))
 }
 
 /// Reflected by a plane.
-fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+pub(super) fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
     (direction - 2.0 * direction.dot(normal) * normal).normalize()
 }
 
 /// Refracted at a plane; `ratio` is the index before over that behind. None under total reflection.
-fn refracted(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+pub(super) fn refracted(direction: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     let cos = direction.dot(normal);
     let square = 1.0 - ratio * ratio * (1.0 - cos * cos);
     (square > 0.0).then(|| {

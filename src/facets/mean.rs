@@ -76,7 +76,8 @@ const DIRECTIONS: usize = 96;
 const DIRECTIONS_FIXED: usize = 40_000;
 
 impl Sums {
-    fn add(&mut self, other: &Self, share: f64) {
+    /// Add a share of another.
+    pub(super) fn add(&mut self, other: &Self, share: f64) {
         let add = |to: &mut Vec<f64>, from: &[f64]| {
             to.resize(to.len().max(from.len()), 0.0);
             to.iter_mut().zip(from).for_each(|(to, from)| *to += share * from);

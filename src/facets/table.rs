@@ -116,23 +116,18 @@ impl TableJob<'_> {
 
     /// Scatter of replicas by band of scattering angle.
     fn errors(&self, replicas: &[Sums], sums: &Sums, columns: usize, elements: usize) -> Errors {
-        let width = error_theta(1);
-        let band = |i: usize| ((self.axes.theta[i] / width).round() as usize).min(ERROR_BANDS - 1);
         let total = |sums: &Sums, i: usize| -> f64 {
             (0..columns).map(|c| sums.mueller[(i * columns + c) * elements]).sum()
         };
-        let mut bands = [Band::default(); ERROR_BANDS];
+        let mut bands = Band::none();
         let count = replicas.len() as f64;
         for i in 0..self.axes.theta.len() {
             let mean = total(sums, i);
             let square: f64 = replicas.iter().map(|r| (total(r, i) - mean).powi(2)).sum();
             let variance = if count > 1.0 { square / (count * (count - 1.0)) } else { 0.0 };
-            let band = &mut bands[band(i)];
-            band.square += mean * mean;
-            band.variance += variance;
-            band.samples += 1.0;
+            Band::at(&mut bands, self.axes.theta[i]).add(mean * mean, variance, 1.0);
         }
-        Errors { bands, method: self.method_error }
+        Errors::new(bands, self.method_error)
     }
 
     /// How the table came about, in words.
@@ -181,19 +176,44 @@ struct Closing {
 
 /// Sums over the samples of a band.
 #[derive(Clone, Copy, Debug, Default)]
-struct Band {
+pub(super) struct Band {
     square: f64,
     variance: f64,
     samples: f64,
 }
 
+impl Band {
+    /// All bands, empty.
+    pub(super) fn none() -> [Band; ERROR_BANDS] {
+        [Band::default(); ERROR_BANDS]
+    }
+
+    /// That of a scattering angle.
+    pub(super) fn at(bands: &mut [Band; ERROR_BANDS], theta: f64) -> &mut Band {
+        let number = (theta / error_theta(1)).round() as usize;
+        &mut bands[number.min(ERROR_BANDS - 1)]
+    }
+
+    /// One sample more: its square, its variance, and how much it counts.
+    pub(super) fn add(&mut self, square: f64, variance: f64, samples: f64) {
+        self.square += square;
+        self.variance += variance;
+        self.samples += samples;
+    }
+}
+
 /// Errors by scattering angle: of the method, and of the number of orientations.
-struct Errors {
+pub(super) struct Errors {
     bands: [Band; ERROR_BANDS],
     method: f64,
 }
 
 impl Errors {
+    /// Of the scatter in each band and the relative error of the method.
+    pub(super) fn new(bands: [Band; ERROR_BANDS], method: f64) -> Self {
+        Self { bands, method }
+    }
+
     /// Bands that count in the means: without the forward peak and its mirror image.
     const COUNTED: std::ops::Range<usize> = 3..43;
 
@@ -202,14 +222,14 @@ impl Errors {
         sampling + self.method * self.method
     }
 
-    fn by_direction(&self) -> [f64; ERROR_BANDS] {
+    pub(super) fn by_direction(&self) -> [f64; ERROR_BANDS] {
         let of =
             |band: &Band| if band.samples > 0.0 { self.relative(band).sqrt() } else { f64::NAN };
         std::array::from_fn(|k| of(&self.bands[k]))
     }
 
     /// Weighted by intensity, and by band.
-    fn means(&self) -> (f64, f64) {
+    pub(super) fn means(&self) -> (f64, f64) {
         let seen = || self.bands[Self::COUNTED].iter().filter(|band| band.samples > 0.0);
         let (mut squares, mut total, mut bands, mut count) = (0.0, 0.0, 0.0, 0.0);
         for band in seen() {
@@ -226,13 +246,13 @@ impl Errors {
     }
 
     /// Share of the intensity by which the number of orientations leaves it open.
-    fn sampling(&self) -> f64 {
+    pub(super) fn sampling(&self) -> f64 {
         (self.means().1.powi(2) - self.method * self.method).max(0.0).sqrt()
     }
 }
 
 /// Shares of the light on the mean shadow.
-fn budget(sums: &Sums) -> EnergyBudget {
+pub(super) fn budget(sums: &Sums) -> EnergyBudget {
     let share = |area: f64| area / sums.shadow;
     let left_by_order: Vec<f64> = sums.left_by_order.iter().map(|&area| share(area)).collect();
     let [totally_reflected, truncated] = sums.trapped.map(share);

@@ -14,6 +14,8 @@ use std::f64::consts::TAU;
 
 /// Orientations in a mean where the scene names no number, and replicas by whose scatter its error is told.
 const ORIENTATIONS: u32 = 512;
+/// The same for rays alone, each of which goes one way only.
+const ORIENTATIONS_OF_RAYS: u32 = 32_768;
 const REPLICAS: u32 = 8;
 /// Most chords, and the share of the light of a beam that is no longer followed per tolerance.
 const LAST_ORDER: u32 = 24;
@@ -65,7 +67,7 @@ impl Plan {
             symmetry,
             orders: Vec::new(),
             complete: true,
-            forward_diffraction: true,
+            forward_diffraction: !scene.is_of_rays_alone(),
             tolerance: scene.tolerance,
             thresholds,
             checked: true,
@@ -93,7 +95,11 @@ impl Plan {
     pub fn orientations(&self, scene: &Scene) -> [u32; 2] {
         match scene.orientation {
             Orientation::Fixed => [1, 1],
-            _ => [scene.orientations.unwrap_or(ORIENTATIONS).div_ceil(REPLICAS), REPLICAS],
+            _ => {
+                let many = scene.is_of_rays_alone();
+                let usual = if many { ORIENTATIONS_OF_RAYS } else { ORIENTATIONS };
+                [scene.orientations.unwrap_or(usual).div_ceil(REPLICAS), REPLICAS]
+            }
         }
     }
 
@@ -129,8 +135,13 @@ impl Plan {
     }
 
     /// Relative error that intensities of facets are expected to have.
-    pub fn error_of_facets(&self, size_parameter: f64) -> f64 {
-        (self.thresholds.error_of_facets / size_parameter).min(1.0)
+    pub fn error_of_facets(&self, scene: &Scene, size_parameter: f64) -> f64 {
+        let waves = self.thresholds.error_of_facets / size_parameter;
+        let rays = match scene.is_of_rays_alone() {
+            true => self.thresholds.error_of_facet_rays / size_parameter.sqrt(),
+            false => 0.0,
+        };
+        waves.hypot(rays).min(1.0)
     }
 
     /// What is said of a crystal before its table is made.
@@ -139,9 +150,12 @@ impl Plan {
         let seen = scene.medium.seen_outside(longest).unwrap_or(longest);
         MethodPart {
             order: None,
-            method: "beams of flat facets, each with its diffraction".into(),
+            method: match scene.is_of_rays_alone() {
+                true => "rays through flat facets, without diffraction".into(),
+                false => "beams of flat facets, each with its diffraction".into(),
+            },
             reason: "a convex body of flat facets".into(),
-            expected_error: Some(self.error_of_facets(TAU * self.radius / seen)),
+            expected_error: Some(self.error_of_facets(scene, TAU * self.radius / seen)),
             ..MethodPart::default()
         }
     }

@@ -107,6 +107,11 @@ pub enum ScatterError {
         "particle: amplitudes are those of one particle of one size that stands still: make a table of many"
     )]
     Several,
+    #[error(
+        "model.interference = false with diffraction = \"none\": rays of a crystal have powers and no amplitudes: make \
+         a table, or leave both out"
+    )]
+    RaysAlone,
     /// Share of the light.
     #[error("energy does not add up: {0:e} of the light is unaccounted for")]
     Energy(f64),
@@ -119,7 +124,9 @@ impl Blame for ScatterError {
             ScatterError::Series(error) => error.fault(),
             ScatterError::TMatrix(error) => error.fault(),
             ScatterError::Simulate(error) => error.fault(),
-            ScatterError::Medium(_) | ScatterError::Several => Fault::Input,
+            ScatterError::Medium(_) | ScatterError::Several | ScatterError::RaysAlone => {
+                Fault::Input
+            }
             ScatterError::Energy(_) => Fault::Run,
         }
     }

@@ -36,6 +36,9 @@ pub fn of_scene(
     if several || moves || crystal && scene.orientation != Orientation::Fixed {
         return Err(ScatterError::Several);
     }
+    if scene.is_of_rays_alone() {
+        return Err(ScatterError::RaysAlone);
+    }
     let one = Scene { wavelengths: vec![wavelength], ..scene.clone() };
     let plan = Plan::new(&one)?;
     // the wavelength and the index that the surroundings leave
@@ -62,7 +65,7 @@ pub fn of_scene(
         Engine::Facets => {
             let body = plan.crystal.as_ref().ok_or(PlanError::FacetsNeedCrystal)?;
             let (settings, error) =
-                (plan.beam_settings(), plan.error_of_facets(request.size_parameter));
+                (plan.beam_settings(), plan.error_of_facets(&one, request.size_parameter));
             facets(&request, body, stand(&one), one.sun_elevation, settings, error)
         }
         Engine::Meridians | Engine::Patches => {

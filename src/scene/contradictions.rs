@@ -7,7 +7,17 @@ use crate::medium::radial::{Inside, Profile};
 use crate::phase_table::ForwardPeak;
 use crate::size_distribution::SizeDistribution;
 
+/// Azimuths by which a circle is told in cells.
+const LEAST_AZIMUTHS: usize = 8;
+
 impl Scene {
+    /// Whether a crystal's beams are taken as rays, with their powers alone.
+    pub fn is_of_rays_alone(&self) -> bool {
+        let crystal = matches!(self.particle, Particle::Crystal { .. });
+        let alone = self.interference == Interference::Powers;
+        crystal && alone && self.diffraction == Diffraction::None
+    }
+
     /// Facets have a method of their own, and not every switch of the others.
     pub(super) fn check_crystal(&self) -> Result<(), SceneError> {
         let Particle::Crystal { crystal, .. } = &self.particle else {
@@ -46,13 +56,24 @@ impl Scene {
             let accepted = "facets have all orders at once: \"auto\"";
             return refuse("model.orders", format!("{list:?}"), accepted);
         }
-        if self.interference != Interference::Waves {
-            let accepted = "beams of facets add as waves: true";
+        let rays = self.is_of_rays_alone();
+        if self.interference != Interference::Waves && !rays {
+            let accepted = "beams of facets add as waves: true; or, with diffraction = \"none\", as rays: false";
             return refuse("model.interference", self.interference.name().into(), accepted);
         }
-        if self.diffraction != Diffraction::Airy {
-            let accepted = "beams of facets have their own diffraction; leave it out";
+        if self.diffraction != Diffraction::Airy && !rays {
+            let accepted = "beams of facets have their own diffraction: leave it out; or rays alone: \"none\" with \
+                            interference = false";
             return refuse("model.diffraction", self.diffraction.name().into(), accepted);
+        }
+        if rays && self.forward_peak != ForwardPeak::CellAverage {
+            let accepted = "rays are told as means over cells: \"cell_average\"";
+            return refuse("table.forward_peak", self.forward_peak.name().into(), accepted);
+        }
+        if rays && self.orientation != Orientation::Random && self.phi.len() < LEAST_AZIMUTHS {
+            let accepted = "rays are told as means over cells: azimuths over the circle, 8 at least, or \
+                            orientation = \"random\"";
+            return refuse("table.azimuth_deg", format!("{} azimuths", self.phi.len()), accepted);
         }
         if let Some(rays) = self.rays_across {
             return refuse(

@@ -262,7 +262,8 @@ impl AmountKeys {
 
 impl SceneFile {
     /// This scene with everything replaced that `flags` gives.
-    pub fn overridden_by(self, flags: &SceneFile) -> SceneFile {
+    pub fn overridden_by(mut self, flags: &SceneFile) -> SceneFile {
+        self.model = self.model.of_shape(flags.particle.shape, self.particle.shape);
         SceneFile {
             particle: self.particle.overridden_by(&flags.particle),
             amount: match flags.amount.is_empty() {
@@ -319,6 +320,20 @@ impl LightKeys {
 }
 
 impl ModelKeys {
+    /// What a scene said of its own kind of body is not said of facets in its place, and the other way round.
+    fn of_shape(
+        mut self,
+        new: Option<Choice<ShapeName>>,
+        old: Option<Choice<ShapeName>>,
+    ) -> ModelKeys {
+        let faceted = |shape: Choice<ShapeName>| shape.0.is_crystal();
+        if new.is_some_and(|new| old.is_some_and(|old| faceted(old) != faceted(new))) {
+            (self.method, self.interference, self.diffraction) = (None, None, None);
+            (self.orders, self.rays_across) = (None, None);
+        }
+        self
+    }
+
     fn overridden_by(mut self, flags: &ModelKeys) -> ModelKeys {
         // Another method replaces what goes with rays alone.
         let series = [Method::Mie, Method::Debye, Method::TMatrix, Method::Facets]

@@ -17,6 +17,7 @@ mod file;
 mod flags;
 mod grid;
 mod modes;
+mod named_files;
 mod orientation;
 mod particle;
 mod read;
@@ -36,6 +37,7 @@ pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::{Grid, Range, Third};
 pub use modes::{Amount, Mode};
+pub use named_files::named_files;
 pub use orientation::OrientationKey;
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]

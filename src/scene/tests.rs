@@ -223,6 +223,12 @@ fn flags_replace_keys_and_are_named_in_messages() {
     flags.particle.shape = Some(Choice(ShapeName::Sphere));
     let scene = Scene::built_in(&flags).unwrap();
     assert_eq!(scene.particle, Particle::Sphere { radius: 0.5e-3 });
+    assert_eq!(scene.method, Method::Rays);
+    // the rays of the built-in scene are those of its drop
+    flags.particle.shape = Some(Choice(ShapeName::Octahedron));
+    assert_eq!(Scene::built_in(&flags).unwrap().method, Method::Auto);
+    flags.model.method = Some(Choice(Method::Rays));
+    assert!(Scene::built_in(&flags).unwrap_err().to_string().starts_with("--method = rays"));
 }
 
 #[test]

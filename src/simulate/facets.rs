@@ -30,9 +30,9 @@ pub(super) fn slab(
         quantity: scene.quantity,
         forward_peak: scene.forward_peak,
         tolerance: scene.tolerance,
-        method_error: plan.error_of_facets(size_parameter),
+        method_error: plan.error_of_facets(scene, size_parameter),
     };
-    Ok(job.slab())
+    Ok(if scene.is_of_rays_alone() { job.ray_slab() } else { job.slab() })
 }
 
 #[cfg(test)]

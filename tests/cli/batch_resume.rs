@@ -167,3 +167,35 @@ fn wrong_input_is_told_with_code_2() {
         assert!(!folder.join("bad.jsonl").exists());
     }
 }
+
+/// A table that was made of other data is never taken for the one that is asked for.
+#[test]
+fn data_that_changed_are_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let data = |n: f64| {
+        let rows = format!("wavelength_um,n\n0.4,{n}\n0.5,{n}\n0.6,{n}\n");
+        fs::write(folder.join("glass.csv"), rows).unwrap();
+    };
+    let sweep = "[particle]\nshape = \"sphere\"\nradius_um = [2, 3]\nmedium = { file = \"glass.csv\" }\n\
+        [light]\nwavelengths_nm = [500]\n[table]\ntheta_deg = [0, 90, 180]\n";
+    fs::write(folder.join("sweep.toml"), sweep).unwrap();
+    let plan = |output: &str| {
+        succeed(folder, &["batch", "plan", "sweep.toml", "-o", output]);
+        fs::read_to_string(folder.join(output)).unwrap()
+    };
+    let arguments = ["batch", "run", "--plan", "plan.jsonl", "--dir", "shards", "--json"];
+    data(1.5);
+    let before = plan("plan.jsonl");
+    succeed(folder, &arguments);
+    data(1.8);
+    let refused = run(folder, &arguments);
+    let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(!refused.status.success(), "tables of other glass passed");
+    assert!(words.contains("glass.csv changed since the plan was made"), "{words}");
+    assert_ne!(plan("again.jsonl"), before);
+    data(1.5);
+    assert_eq!(plan("third.jsonl"), before);
+    let result: serde_json::Value = serde_json::from_str(&succeed(folder, &arguments)).unwrap();
+    assert_eq!(result["skipped"], 2, "{result}");
+}

@@ -55,6 +55,12 @@ impl Scene {
         &self.0.toml
     }
 
+    /// Files that the scene names: a result belongs to what they hold.
+    #[getter]
+    fn files(&self) -> Vec<PathBuf> {
+        scene::named_files(&self.0.toml)
+    }
+
     /// What the user is to know of the medium.
     #[getter]
     fn notes(&self) -> Vec<String> {

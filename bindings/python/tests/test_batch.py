@@ -78,3 +78,15 @@ def test_wrong_sweeps(sweep, words, tmp_path):
     with pytest.raises(ValueError, match=words):
         gonio.batch(gonio.Sphere(radius_um=1), sweep, folder=tmp_path, **FIXED)
     assert not list(tmp_path.iterdir())
+
+
+def test_data_that_changed_are_seen(tmp_path):
+    data, kept = tmp_path / "glass.csv", tmp_path / "kept"
+    found = []
+    for n in (1.5, 1.8, 1.5):
+        data.write_text(f"wavelength_um,n\n0.4,{n}\n0.7,{n}\n", encoding="utf-8")
+        glass = gonio.Sphere(radius_um=1, medium={"file": str(data)})
+        made = gonio.batch(glass, {"light.sun_elevation_deg": [0]}, folder=kept, **FIXED)
+        found.append(float(made.extinction_cross_section.item()))
+    assert found[0] == found[2] != found[1]
+    assert len(list(kept.iterdir())) == 2

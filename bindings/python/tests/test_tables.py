@@ -29,6 +29,51 @@ wavelengths_nm = [650]
 theta_deg = { from = 0, to = 180, count = 181 }
 azimuth_deg = { from = 0, to = 360, count = 13 }
 """,
+    "plate": """
+[particle]
+shape = "hexagonal-column"
+radius_um = 20
+axis_ratio = 0.5
+medium = "ice"
+orientation = { kind = "random", count = 16 }
+[light]
+wavelengths_nm = [550]
+[table]
+theta_deg = { from = 0, to = 180, count = 37 }
+azimuth_deg = [0]
+[model]
+allow_unmet_tolerance = true
+""",
+    "superellipsoid": """
+[particle]
+shape = "superellipsoid"
+radius_um = 50
+axis_ratio = 0.95
+exponent = 2.1
+[light]
+wavelengths_nm = [650]
+[table]
+theta_deg = { from = 0, to = 180, count = 91 }
+azimuth_deg = { from = 0, to = 360, count = 13 }
+[model]
+tolerance = 0.05
+allow_unmet_tolerance = true
+""",
+    "kinds": """
+[[particles]]
+number_fraction = 0.3
+shape = "sphere"
+radius_um = 1
+[[particles]]
+number_fraction = 0.7
+shape = "sphere"
+radius_um = 0.2
+medium = { index = [1.75, 0.44] }
+[light]
+wavelengths_nm = [500]
+[table]
+theta_deg = { from = 0, to = 180, count = 61 }
+""",
     "rounded": """
 [particle]
 shape = "sphere"
@@ -143,3 +188,31 @@ def test_plan():
     planned = gonio.plan(gonio.Raindrop(radius_mm=0.5))
     assert planned["engine"] == "Meridians" and planned["azimuths_stored"] == 361
     assert planned["ranges"][0]["parts"][0]["method"]
+
+
+def test_particles_are_their_scenes(tmp_path):
+    at = {"light": {"wavelengths_nm": [500]}, "table": {"theta_deg": [0, 90, 180]}}
+    kinds = gonio.mixture(
+        [(0.3, gonio.Sphere(radius_um=1)), (0.7, gonio.Sphere(radius_um=0.2, medium=1.75 + 0.44j))]
+    )
+    mean = gonio.table(kinds, **at).extinction_cross_section
+    one, other = (gonio.table(p, **at).extinction_cross_section for p in (
+        gonio.Sphere(radius_um=1), gonio.Sphere(radius_um=0.2, medium=1.75 + 0.44j)
+    ))
+    assert np.allclose(mean, 0.3 * one + 0.7 * other, rtol=1e-9)
+    # a cube by its corners is the cube by its name
+    corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+    faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+    path = tmp_path / "cube.obj"
+    path.write_text(
+        "".join("v {} {} {}\n".format(*c) for c in corners) + "".join("f {} {} {} {}\n".format(*f) for f in faces)
+    )
+    fixed = {"kind": "fixed", "zenith_deg": 20, "azimuth_deg": 10, "spin_deg": 0}
+    # the named one has a corner towards azimuth 0 at spin 0, the mesh a face
+    turned = {**fixed, "spin_deg": 45}
+    at = {"light": {"wavelengths_nm": [500]}, "table": {"theta_deg": {"from": 0, "to": 180, "count": 19},
+                                                        "azimuth_deg": [0]},
+          "model": {"allow_unmet_tolerance": True}}
+    mesh = gonio.table(gonio.Mesh(file=path, radius_um=10, medium="ice", orientation=fixed), **at)
+    cube = gonio.table(gonio.Cuboid(axis_ratio=1, radius_um=10, medium="ice", orientation=turned), **at)
+    assert np.allclose(mesh.extinction_cross_section, cube.extinction_cross_section, rtol=1e-6)

@@ -1,6 +1,6 @@
 """What type checkers are shown: calls as users write them."""
 
-from typing import assert_type
+from typing import Any, assert_type
 
 import numpy as np
 import xarray as xr
@@ -31,3 +31,6 @@ t = gonio.tmatrix.TMatrix(2.0, 1.33 + 0.01j, axis_ratio=0.8)
 assert_type(t.amplitudes(theta_deg=[0, 90]).s1, NDArray[np.complex128])
 assert_type(t.efficiencies(), gonio.mie.Efficiencies)
 assert_type(t.random().scattering_matrix(theta_deg=0), NDArray[np.float64])
+plate = gonio.HexagonalColumn(radius_um=20, axis_ratio=0.2, medium="ice", orientation={"kind": "random", "count": 64})
+assert_type(plate.axis_ratio, float | None)
+assert_type(gonio.mixture([(0.5, plate), (0.5, gonio.Octahedron(radius_um=20, medium="ice"))])["particles"], Any)

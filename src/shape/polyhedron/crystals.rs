@@ -172,7 +172,9 @@ impl Body {
         let narrowing = half / tip(angle("apex", apex)?);
         if narrowing >= LEAST_END {
             let accepted = "an angle at which opposite sides do not meet below the upper end";
-            return Err(BodyError::Proportion { name: "apex", value: apex, accepted });
+            // as scenes have it
+            let value = apex.to_degrees();
+            return Err(BodyError::Proportion { name: "apex_deg", value, accepted });
         }
         capped(&hexagon(), [(-half, 1.0 + narrowing), (half, 1.0 - narrowing)], [None, None])
     }

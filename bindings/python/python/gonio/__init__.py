@@ -32,14 +32,38 @@ if TYPE_CHECKING:
     from gonio._lee import lee
     from gonio._material import Material, material, media
     from gonio._radar import radar
-    from gonio.particles import Particle, Raindrop, Sphere, Spheroid
+    from gonio.crystals import (
+        Brilliant,
+        Bullet,
+        Crystal,
+        Cuboid,
+        HexagonalColumn,
+        Mesh,
+        Octahedron,
+        PyramidalCrystal,
+        TaperedColumn,
+        TriangularPrism,
+    )
+    from gonio.particles import Harmonics, Particle, Raindrop, Sphere, Spheroid, Superellipsoid, mixture
 
 __all__ = [
+    "Brilliant",
+    "Bullet",
+    "Crystal",
+    "Cuboid",
+    "Harmonics",
+    "HexagonalColumn",
     "Material",
+    "Mesh",
+    "Octahedron",
     "Particle",
+    "PyramidalCrystal",
     "Raindrop",
     "Sphere",
     "Spheroid",
+    "Superellipsoid",
+    "TaperedColumn",
+    "TriangularPrism",
     "__version__",
     "batch",
     "debye",
@@ -47,6 +71,7 @@ __all__ = [
     "material",
     "media",
     "mie",
+    "mixture",
     "plan",
     "radar",
     "scatter",
@@ -61,7 +86,24 @@ _HOMES = {
     "radar": "_radar",
     **dict.fromkeys(("plan", "scatter", "table"), "_datasets"),
     **dict.fromkeys(("Material", "material", "media"), "_material"),
-    **dict.fromkeys(("Particle", "Raindrop", "Sphere", "Spheroid"), "particles"),
+    **dict.fromkeys(
+        ("Harmonics", "Particle", "Raindrop", "Sphere", "Spheroid", "Superellipsoid", "mixture"), "particles"
+    ),
+    **dict.fromkeys(
+        (
+            "Brilliant",
+            "Bullet",
+            "Crystal",
+            "Cuboid",
+            "HexagonalColumn",
+            "Mesh",
+            "Octahedron",
+            "PyramidalCrystal",
+            "TaperedColumn",
+            "TriangularPrism",
+        ),
+        "crystals",
+    ),
 }
 
 

@@ -157,8 +157,12 @@ def whole_of(scene: _gonio.Scene, folder: Path | None, threads: int | None) -> d
 
     if folder is None:
         return compute()
-    name = hashlib.sha256(f"gonio {_gonio.__version__}\n{scene.toml}".encode()).hexdigest()[:20]
-    path = folder / f"{name}.npz"
+    digest = hashlib.sha256(f"gonio {_gonio.__version__}\n{scene.toml}".encode())
+    for file in scene.files:
+        # a scene means what its files hold
+        content = file.read_bytes()
+        digest.update(f"\n{file} {len(content)}\n".encode() + content)
+    path = folder / f"{digest.hexdigest()[:20]}.npz"
     found = load(path)
     if found is None:
         found = compute()

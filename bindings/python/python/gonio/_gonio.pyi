@@ -1,4 +1,5 @@
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 __version__: str
@@ -9,6 +10,8 @@ class Scene:
     ) -> None: ...
     @property
     def toml(self) -> str: ...
+    @property
+    def files(self) -> list[Path]: ...
     @property
     def notes(self) -> list[str]: ...
     @property

@@ -1,5 +1,7 @@
 """Particles, as scenes know them: the keys of their section ``[particle]`` as arguments.
 
+Crystals and other bodies of facets are in :mod:`gonio.crystals`.
+
 Radii are those of the sphere of equal volume. ``medium`` is a name of the library (:func:`gonio.media`), a complex
 index n + ik, or a table as in a scene file: ``{"index": [1.33, 0.0]}``, ``{"file": "glass.yml"}``.
 A size is one of ``radius_um``, ``radius_mm``, ``diameter_mm``, or a ``size_distribution``.
@@ -14,7 +16,7 @@ from typing import Any, ClassVar, Literal
 
 from gonio._keys import checked
 
-__all__ = ["Particle", "Raindrop", "Sphere", "Spheroid"]
+__all__ = ["Harmonics", "Particle", "Raindrop", "Sphere", "Spheroid", "Superellipsoid", "mixture"]
 
 Medium = str | complex | Mapping[str, Any]
 
@@ -61,15 +63,17 @@ class Particle:
     shape: ClassVar[str] = ""
 
     def __init_subclass__(cls) -> None:
-        """Tell of every particle also the parameters that all have."""
-        if cls.__doc__ and Particle.__doc__:
-            common = cleandoc(Particle.__doc__).partition(PARAMETERS)[2].partition("\n\n")[0]
+        """Tell of every particle also the parameters that its base has."""
+        inherited = cls.__mro__[1].__doc__
+        if cls.__doc__ and inherited:
+            common = cleandoc(inherited).partition(PARAMETERS)[2].partition("\n\n")[0]
             before, heading, own = cleandoc(cls.__doc__).partition(PARAMETERS)
             cls.__doc__ = f"{before}{heading}{common}\n{own}"
 
     def __post_init__(self) -> None:
         if not self.shape:
-            raise TypeError("Particle is what Sphere, Spheroid and Raindrop have in common: make one of these")
+            name = type(self).__name__
+            raise TypeError(f"{name} is what Sphere, Spheroid and so on have in common: make one of these")
         # one wavelength inside all data of the library, where the medium allows: said with the light otherwise
         checked({"particle": self.keys(), "table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
 
@@ -187,3 +191,91 @@ class Raindrop(Particle):
     model: str | None = None
     canting: Mapping[str, Any] | None = None
     shape: ClassVar[str] = "raindrop"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Harmonics(Particle):
+    """A body of revolution by the cosine series of its outline, r(θ) = Σ c_n cos nθ, θ from straight down.
+
+    Parameters
+    ----------
+    coefficients : sequence of float
+        c_0, c_1, …, 1 to 32; their unit is no matter.
+    orientation : {"upright", "random"}, optional
+        How the axis stands; ``random`` is the mean over all orientations.
+
+    Examples
+    --------
+    >>> Harmonics(radius_um=100, coefficients=[1, 0, -0.05]).keys()
+    {'shape': 'harmonics', 'radius_um': 100, 'coefficients': [1, 0, -0.05]}
+    """
+
+    coefficients: Sequence[float] | None = None
+    orientation: Literal["upright", "random"] | None = None
+    shape: ClassVar[str] = "harmonics"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Superellipsoid(Particle):
+    """A body of revolution between an ellipsoid and a cylinder, (x² + y²)^(m/2) + (z/c)^m = 1.
+
+    Parameters
+    ----------
+    axis_ratio : float
+        c, vertical over horizontal diameter, 0.2 to 5.
+    exponent : float
+        m, 2 to 4; 2 is a spheroid.
+    orientation : {"upright", "random"}, optional
+        How the axis stands; ``random`` is the mean over all orientations.
+
+    Examples
+    --------
+    >>> Superellipsoid(radius_um=100, axis_ratio=1, exponent=2.5).keys()
+    {'shape': 'superellipsoid', 'radius_um': 100, 'axis_ratio': 1, 'exponent': 2.5}
+    """
+
+    axis_ratio: float | None = None
+    exponent: float | None = None
+    orientation: Literal["upright", "random"] | None = None
+    shape: ClassVar[str] = "superellipsoid"
+
+
+def mixture(
+    parts: Sequence[tuple[float, Particle]], *, by: Literal["number", "volume", "mass"] = "number"
+) -> dict[str, Any]:
+    """Several kinds of particles as one scene.
+
+    Parameters
+    ----------
+    parts : sequence of (float, particle)
+        Shares, which add up to 1, and the kinds that have them.
+    by : {"number", "volume", "mass"}, optional
+        What the shares are fractions of: the particles inside the limits of their distributions, their volume or mass.
+
+    Returns
+    -------
+    dict
+        Sections of a scene, for :func:`gonio.table`, :func:`gonio.plan` and :func:`gonio.batch`.
+
+    Raises
+    ------
+    ValueError
+        Shares that do not add up to 1, or kinds that cannot stand in one volume.
+
+    Examples
+    --------
+    >>> import gonio
+    >>> soot = gonio.Sphere(radius_um=0.05, medium=1.75 + 0.44j)
+    >>> haze = gonio.mixture([(0.2, soot), (0.8, gonio.Sphere(radius_um=0.2))])
+    >>> [kind["number_fraction"] for kind in haze["particles"]]
+    [0.2, 0.8]
+    """
+    if by not in ("number", "volume", "mass"):
+        raise ValueError(f'by = {by!r}: "number", "volume" and "mass" are accepted')
+    try:
+        kinds = [{**particle.keys(), f"{by}_fraction": share} for share, particle in parts]
+    except (AttributeError, TypeError, ValueError):
+        raise TypeError(f"parts = {parts!r}: pairs of a share and a particle are accepted") from None
+    scene: dict[str, Any] = {"particles": kinds}
+    checked({**scene, "table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
+    return scene
