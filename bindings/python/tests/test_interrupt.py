@@ -26,7 +26,9 @@ CALLS = {
 def test_interrupt(name):
     pytest.importorskip("xarray")
     code = f"""
-        import os, sys, threading, time
+        import os, signal, sys, threading, time
+        # a job in the background of a shell starts deaf to Ctrl-C
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         import numpy as np, xarray
         import gonio
         before = threading.active_count(), len(os.listdir("/proc/self/task")) if os.path.isdir("/proc/self/task") else 0

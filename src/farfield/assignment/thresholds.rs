@@ -55,7 +55,8 @@ pub struct Thresholds {
     /// Relative error of intensities (root mean square over bands, one orientation) times the size parameter:
     /// measured against discrete dipoles for a hexagonal column (validation/facets.md).
     pub error_of_facets: f64,
-    /// The same of facets' rays alone, times the root of the size parameter: what diffraction would smooth.
+    /// The same of rays alone through facets, times the root of the size parameter (bands of 4° beside beams with
+    /// diffraction, size parameters 57 and 228): what diffraction would smooth.
     pub error_of_facet_rays: f64,
 
     /// Highest order that `orders = "auto"` goes to, and the least last order that it takes.
@@ -217,7 +218,7 @@ impl Thresholds {
         least_facet_sizes: [20.0, 5.0],
         least_facet: 12.0,
         error_of_facets: 6.0,
-        error_of_facet_rays: 3.0,
+        error_of_facet_rays: 3.3,
         highest_order: 24,
         least_last_order: 3,
         left_out_per_tolerance: 0.035,

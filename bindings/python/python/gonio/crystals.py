@@ -220,7 +220,7 @@ class Mesh(Crystal):
     >>> Mesh(file="gem.obj", radius_um=20)
     Traceback (most recent call last):
         ...
-    ValueError: scene: particle.file = gem.obj: cannot be read: No such file or directory (os error 2)
+    ValueError: scene: particle.file = gem.obj: No such file or directory (os error 2)
     """
 
     file: str | os.PathLike[str] | None = None

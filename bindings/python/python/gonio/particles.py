@@ -74,8 +74,7 @@ class Particle:
         if not self.shape:
             name = type(self).__name__
             raise TypeError(f"{name} is what Sphere, Spheroid and so on have in common: make one of these")
-        # one wavelength inside all data of the library, where the medium allows: said with the light otherwise
-        checked({"particle": self.keys(), "table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
+        look_at({"particle": self.keys()})
 
     def keys(self) -> dict[str, Any]:
         """The keys of the section ``[particle]``.
@@ -91,6 +90,15 @@ class Particle:
             if name in keys:
                 keys[name] = in_keys(keys[name])
         return keys
+
+
+def look_at(sections: Mapping[str, Any]) -> None:
+    """Refuse particles that no scene has; whether their media have data is said with the light that is asked for."""
+    try:
+        checked({**sections, "table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
+    except ValueError as error:
+        if "is outside the data of" not in str(error):
+            raise
 
 
 def in_keys(medium: Medium) -> str | Mapping[str, Any]:
@@ -277,5 +285,5 @@ def mixture(
     except (AttributeError, TypeError, ValueError):
         raise TypeError(f"parts = {parts!r}: pairs of a share and a particle are accepted") from None
     scene: dict[str, Any] = {"particles": kinds}
-    checked({**scene, "table": {"theta_deg": [0, 180], "azimuth_deg": [0]}})
+    look_at(scene)
     return scene
