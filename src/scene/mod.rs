@@ -143,7 +143,7 @@ pub enum Diffraction {
     Airy,
 }
 
-/// What the sun's disc of 0.53° does to a table of spheres.
+/// What the sun's disc of 0.53° does to a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SunDisc {
     /// The light comes from a point.

@@ -7,7 +7,9 @@
 use super::azimuths::Azimuths;
 use super::error::band_errors;
 use super::one_order::Drop;
+use super::seen::{Means, Seen};
 use crate::medium::{Light, MediumError};
+use crate::phase_table::Quantity;
 use crate::plan::Plan;
 use crate::population::{Radius, radii};
 use crate::scene::{Particle, Scene};
@@ -78,9 +80,6 @@ fn middle_light(scene: &Scene) -> Result<Light, MediumError> {
     scene.medium.light(scene.wavelengths[scene.wavelengths.len() / 2])
 }
 
-/// The means of an order over every radius and every second.
-type Means = [Array3<f64>; 2];
-
 impl Steps {
     /// Radii for a scene of one kind of drops with a distribution of sizes.
     ///
@@ -96,8 +95,10 @@ impl Steps {
             [one] => vec![plan.computed_azimuths(&[*one]).0[0]],
             _ => AZIMUTHS.to_vec(),
         };
-        let trial =
-            Scene { quantity: crate::phase_table::Quantity::PhaseFunction, ..scene.clone() };
+        // each azimuth by itself
+        let apart = Azimuths::new((azimuths.clone(), Vec::new()), false);
+        let seen = Seen::new(scene, wavelength, &apart);
+        let trial = Scene { quantity: Quantity::PhaseFunction, ..seen.scene(scene) };
         let mut parts = Vec::new();
         for (stretch, spheres) in stretches(scene, sizes) {
             let steps = |order: u32| if order < FAINT { LEAST } else { LEAST / 2 };
@@ -106,6 +107,7 @@ impl Steps {
         }
         let mut drops = Tried {
             scene: &trial,
+            seen: &seen,
             plan,
             azimuths: &azimuths,
             index,
@@ -154,8 +156,9 @@ impl Steps {
     ) -> Result<f64, SimulateError> {
         let Light { wavelength, index } = middle_light(scene)?;
         let light = (wavelength, index);
-        let table = plan.table_azimuths(&scene.phi);
-        let azimuths = Azimuths::new(plan.computed_azimuths(&table)).computed();
+        let azimuths = Azimuths::of(scene, plan);
+        let scene = &Seen::new(scene, wavelength, &azimuths).scene(scene);
+        let azimuths = azimuths.computed();
         let mut total = 0.0;
         for part in &self.parts {
             let (from, to) = part.stretch;
@@ -195,6 +198,7 @@ impl Steps {
 /// Drops that were tried, by radius and order: finer steps keep all radii of coarser ones.
 struct Tried<'a> {
     scene: &'a Scene,
+    seen: &'a Seen,
     plan: &'a Plan,
     azimuths: &'a [f64],
     index: Complex64,
@@ -214,7 +218,7 @@ impl Tried<'_> {
             }
             add(&mut means, &self.found[&key], [at.weight, at.coarse]);
         }
-        Ok(means)
+        Ok(self.seen.means(means))
     }
 }
 
