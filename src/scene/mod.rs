@@ -35,6 +35,7 @@ pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::{Grid, Range, Third};
+pub(crate) use modes::WATER_DENSITIES;
 pub use modes::{Amount, Mode};
 pub use orientation::OrientationKey;
 pub use read::SceneText;

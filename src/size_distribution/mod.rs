@@ -21,6 +21,7 @@ pub use law::SizeLaw;
 pub use spread::log_normal_sample;
 
 use crate::fault::{Blame, Fault};
+use crate::math::digits::to_digits;
 use crate::math::gauss_legendre;
 
 /// Why a distribution cannot be used.
@@ -35,7 +36,7 @@ pub enum SizeError {
         to: f64,
     },
     /// Nothing to average over.
-    #[error("no particles lie between {from:e} and {to:e} m")]
+    #[error("no particles lie between {} and {} µm", micrometres(*from), micrometres(*to))]
     Nothing {
         /// Metres.
         from: f64,
@@ -45,6 +46,11 @@ pub enum SizeError {
     /// The number of particles has no end towards this limit.
     #[error("the number of particles is infinite without a {0} limit")]
     Endless(&'static str),
+}
+
+/// Metres as they are written.
+fn micrometres(metres: f64) -> f64 {
+    to_digits(metres * 1e6, 9)
 }
 
 impl Blame for SizeError {

@@ -10,12 +10,14 @@
 
 mod azimuths;
 mod error;
+mod guided;
 mod one_order;
 mod seen;
 mod slab;
 mod steps;
 mod tilt;
 
+pub(super) use guided::DropGuides;
 pub(super) use slab::slab;
 pub use steps::Steps;
 

@@ -2,6 +2,7 @@
 
 use super::azimuths::Azimuths;
 use super::error::band_errors;
+use super::guided::DropGuides;
 use super::one_order::Drop;
 use super::seen::Seen;
 use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
@@ -26,7 +27,7 @@ const AT_ONCE: usize = 8;
 pub(crate) fn slab(
     scene: &Scene,
     plan: &Plan,
-    steps: &Steps,
+    (steps, guides): (&Steps, &DropGuides),
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
     let sizes = &sizes_of(scene);
@@ -47,7 +48,8 @@ pub(crate) fn slab(
                 .par_iter()
                 .map(|at| {
                     let drop = Drop::new(&traced, plan, at, light)?;
-                    Ok(drop.order(&traced, part.order, &computed))
+                    let guides = guides.of(at, part.order);
+                    Ok(drop.order(&traced, part.order, &computed, guides))
                 })
                 .collect::<Result<_, SimulateError>>()?;
             for (values, at) in found.iter().zip(some) {

@@ -76,8 +76,18 @@ pub(super) fn sizes_of(scene: &Scene) -> SizeDistribution {
 }
 
 /// Light of the middle one of a scene's wavelengths.
-fn middle_light(scene: &Scene) -> Result<Light, MediumError> {
+pub(super) fn middle_light(scene: &Scene) -> Result<Light, MediumError> {
     scene.medium.light(scene.wavelengths[scene.wavelengths.len() / 2])
+}
+
+/// Least and largest index (real part) of a scene's wavelengths.
+pub(super) fn index_range(scene: &Scene) -> Result<[f64; 2], MediumError> {
+    let mut range = [f64::MAX, f64::MIN];
+    for wavelength in &scene.wavelengths {
+        let index = scene.medium.light(*wavelength)?.index.re;
+        range = [range[0].min(index), range[1].max(index)];
+    }
+    Ok(range)
 }
 
 impl Steps {
@@ -156,6 +166,8 @@ impl Steps {
     ) -> Result<f64, SimulateError> {
         let Light { wavelength, index } = middle_light(scene)?;
         let light = (wavelength, index);
+        let many = scene.wavelengths.len() >= plan.thresholds.fewest_guided;
+        let range = if many { Some(index_range(scene)?) } else { None };
         let azimuths = Azimuths::of(scene, plan);
         let scene = &Seen::new(scene, wavelength, &azimuths).scene(scene);
         let azimuths = azimuths.computed();
@@ -164,8 +176,9 @@ impl Steps {
             let (from, to) = part.stretch;
             let middle = Radius { radius: 0.5 * (from + to), place: 0.5, weight: 0.0, coarse: 0.0 };
             let drop = Drop::new(scene, plan, &middle, light)?;
+            let guides = range.and_then(|range| drop.guides(part.order, range));
             let seconds = time(&mut || {
-                drop.order(scene, part.order, &azimuths);
+                drop.order(scene, part.order, &azimuths, guides.as_ref());
                 Ok(())
             })?;
             total += seconds * (part.steps + 1) as f64;
@@ -214,7 +227,7 @@ impl Tried<'_> {
             let key = (at.radius.to_bits(), at.place.to_bits(), part.order);
             if !self.found.contains_key(&key) {
                 let drop = Drop::new(self.scene, self.plan, &at, (self.wavelength, self.index))?;
-                self.found.insert(key, drop.order(self.scene, part.order, self.azimuths));
+                self.found.insert(key, drop.order(self.scene, part.order, self.azimuths, None));
             }
             add(&mut means, &self.found[&key], [at.weight, at.coarse]);
         }
