@@ -174,7 +174,7 @@ fn computed_slab(
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
     if let Some(steps) = &prepared.steps {
-        return drops::slab(scene, plan, steps, wavelength);
+        return drops::slab(scene, plan, (steps, &prepared.drops), wavelength);
     }
     // Everything is computed of the wavelength and the index relative to the surroundings.
     let light = plan.light(scene, wavelength)?;

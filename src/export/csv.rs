@@ -1,6 +1,7 @@
 //! Comma-separated values: the mean over azimuth, or every sample.
 
 use super::average::{Averaged, ELEMENTS};
+use super::bulk;
 use super::notes::{notes, shape_note};
 use crate::math::digits::to_digits;
 use crate::phase_table::{PhaseTable, Quantity};
@@ -14,6 +15,9 @@ pub fn averaged(table: &PhaseTable, averaged: &Averaged) -> String {
     );
     for note in notes(table).into_iter().chain(shape_note(table, averaged)) {
         let _ = writeln!(text, "# {note}");
+    }
+    for line in bulk::lines(table, averaged) {
+        let _ = writeln!(text, "# {line}");
     }
     text.push_str("wavelength_nm,theta_deg,peak_share");
     let used = if averaged.polarised { ELEMENTS.len() } else { 1 };

@@ -1,5 +1,5 @@
 //! Mitsuba 3: a folder with the spectral table, a Python plugin that renders it, and `tabphase`
-//! strings for those who have no plugin.
+//! strings for those who have no plugin; beside them albedo and coefficients by wavelength (`medium.csv`).
 //!
 //! `tabphase` takes one curve on a grid uniform in cos θ from −1 to +1 (+1 forward); its first
 //! cells are degrees wide, so the forward peak must be cut. The plugin takes the mean over azimuth
@@ -7,6 +7,7 @@
 //! angle between two directions), at every wavelength: colours come out.
 
 use super::average::Averaged;
+use super::bulk;
 use super::notes::{notes, shape_note};
 use crate::hdf5::TableError;
 use crate::pending_file::write_whole;
@@ -41,6 +42,7 @@ pub fn write(
         write_whole(&path, text.as_bytes()).map_err(named(&path))
     };
     save("phase.csv", &spectral_table(averaged))?;
+    save("medium.csv", &bulk::csv(table, averaged))?;
     save("tabphase.txt", &tabphase(table, averaged, samples))?;
     save("gonio_phase.py", PLUGIN)?;
     save("scene.py", SCENE)

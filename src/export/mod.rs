@@ -8,7 +8,8 @@
 //! Particles that are no spheres have six elements in that mean (11, 12, 22, 33, 34, 44): Eradiate,
 //! libRadtran, sasktran2 and CSV take all of them. Mitsuba's `tabphase` and plugin, the OpenEXR map and the
 //! colour strip take unpolarised light, element 11 alone; the map and the strip and the full CSV keep the
-//! azimuth. [`notes`] are what a user is told beside: an error that was not met, what was averaged over.
+//! azimuth. [`bulk`] are coefficients per metre and per kilogram, where the table tells number and density;
+//! [`notes`] what a user is told beside: an error that was not met, what was averaged over.
 //!
 //! ```
 //! use gonio::export::{average::average, csv};
@@ -36,6 +37,7 @@
 
 mod atmosphere;
 pub mod average;
+pub mod bulk;
 #[cfg(feature = "pictures")]
 mod colours;
 pub mod csv;

@@ -47,18 +47,19 @@ use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer
 use crate::fault::{Blame, Fault};
 use crate::medium::{Medium, MediumError};
 use crate::plan::PlanError;
+use crate::population::SampledSizes;
 use crate::scene::SceneError;
 use crate::series::SeriesError;
 use crate::series::even_angles::AngleSums;
 use crate::series::lanes::{LANES, partial_waves};
 use crate::simulate::SimulateError;
-use crate::size_distribution::log_normal_sample;
+use crate::size_distribution::{SizeDistribution, SizeLaw};
 use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
 use largest_first::largest_first;
 use num_complex::Complex64;
 use rayon::prelude::*;
-use sampling::{AXIS_LIMIT, Band, Sampling, SamplingNeed, TRANSITION, grid};
+use sampling::{AXIS_LIMIT, Band, LARGEST_QUANTILE, Sampling, SamplingNeed, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
 /// Why a diagram cannot be computed.
@@ -210,6 +211,7 @@ where
     cancel::checkpoint();
     let filter = request.sun_disc.then(|| SunFilter::new(sampling.cutoff, TRANSITION));
     let weights = weights(request, sampling);
+    let samples = SampledSizes::new(&sizes(radius, request.size_spread));
     let bands = sampling
         .bands
         .par_iter()
@@ -232,7 +234,7 @@ where
                 let drop = |i: usize| {
                     let wavelength = sampling.wavelengths[i];
                     let index = request.medium.index(wavelength)?;
-                    let radius = log_normal_sample(radius, request.size_spread, i);
+                    let radius = samples.radius(i);
                     Ok(Drop { radius, wavelength, index })
                 };
                 let drops: Vec<Drop> =
@@ -252,6 +254,14 @@ where
     let total = |t: usize, c: usize| bands.iter().map(|band| band[t][c]).sum::<f64>().max(0.0);
     let cell = |t: usize| [0, 3].map(|first| std::array::from_fn(|c| total(t, first + c)));
     Ok((0..request.theta.len()).map(cell).collect())
+}
+
+/// The sizes of a column: log-normal about its radius.
+fn sizes(radius: f64, spread: f64) -> SizeDistribution {
+    let end = |side: f64| radius * (side * LARGEST_QUANTILE * spread).exp();
+    let law = SizeLaw::LogNormal { median: radius, spread };
+    let many = (spread > 0.0).then(|| SizeDistribution::between(law, end(-1.0), end(1.0)));
+    many.and_then(Result::ok).unwrap_or_else(|| SizeDistribution::delta(radius))
 }
 
 /// The averages over the sun's disc at some angles, ascending, of sums on the grid of a band.

@@ -153,7 +153,7 @@ impl Sampling {
 }
 
 /// Sizes are taken up to this quantile of the normal distribution, in standard deviations.
-const LARGEST_QUANTILE: f64 = 3.72;
+pub(super) const LARGEST_QUANTILE: f64 = 3.72;
 
 /// Number of wavelengths before resonances are considered; `range` is that of the size parameter.
 fn number(need: &SamplingNeed, range: f64) -> f64 {

@@ -12,6 +12,7 @@
 //! let optics = BulkOptics::of(&header, &slab);
 //! assert!((optics.albedo - 0.75).abs() < 1e-12);
 //! assert!((optics.extinction_per_length.unwrap() - 0.08).abs() < 1e-12);
+//! assert!((optics.scattering_per_length.unwrap() - 0.06).abs() < 1e-12);
 //! assert!((optics.backscatter.unwrap() - 0.08 * 6e-10).abs() < 1e-17);
 //! ```
 
@@ -30,6 +31,10 @@ pub struct BulkOptics {
     pub depolarisation: Option<f64>,
     /// Of the light that goes through a volume, 1/m; `None` where the number of particles is not known.
     pub extinction_per_length: Option<f64>,
+    /// Of light that a volume scatters, 1/m; `None` likewise.
+    pub scattering_per_length: Option<f64>,
+    /// Of light that a volume scatters straight back, 1/(m sr); `None` likewise, or as the backscatter.
+    pub backscatter_per_length: Option<f64>,
     /// m²/kg; `None` where the density is not known.
     pub extinction_per_mass: Option<f64>,
 }
@@ -46,16 +51,18 @@ impl BulkOptics {
         let back = |element: usize| slab.azimuth_mean(&header.axes, element)[last];
         let bodies = header.bodies.as_ref();
         let polarised = reaches && header.quantity == Quantity::Mueller;
+        let number = bodies.and_then(|bodies| bodies.number_density);
+        let backscatter = reaches.then(|| slab.scattering_cross_section * back(0));
         Self {
             albedo: slab.scattering_cross_section / extinction,
-            backscatter: reaches.then(|| slab.scattering_cross_section * back(0)),
+            backscatter,
             depolarisation: polarised.then(|| {
                 let (all, along) = (back(0), back(5));
                 ((all - along) / (all + along)).max(0.0)
             }),
-            extinction_per_length: bodies
-                .and_then(|bodies| bodies.number_density)
-                .map(|number| number * extinction),
+            extinction_per_length: number.map(|number| number * extinction),
+            scattering_per_length: number.map(|number| number * slab.scattering_cross_section),
+            backscatter_per_length: number.zip(backscatter).map(|(number, back)| number * back),
             extinction_per_mass: bodies
                 .and_then(|bodies| bodies.mean_mass())
                 .map(|mass| extinction / mass),

@@ -5,7 +5,7 @@
 //! fitted from 0.1 mm on; small ones after Stokes, `v = 1.19e8 r²/(m s)` (Rogers & Yau 1989, eq. 8.5), where that
 //! is less (below 0.14 mm diameter; up to a fifth too fast about there).
 
-use crate::scene::{Amount, Scene};
+use crate::scene::{Amount, Scene, WATER_DENSITIES};
 use crate::size_distribution::SizeDistribution;
 use std::f64::consts::PI;
 
@@ -15,8 +15,6 @@ const BRANDES: [f64; 5] = [-0.1021, 4.932, -0.9551, 0.07934, -0.002362];
 const LARGEST_MM: f64 = 8.0;
 /// Stokes's law, 1/(m s) by radius.
 const STOKES: f64 = 1.19e8;
-/// Densities of water that rains, kg/m³.
-const WATER: std::ops::RangeInclusive<f64> = 950.0..=1050.0;
 /// Nodes of the mean over sizes.
 const STEPS: usize = 400;
 
@@ -58,7 +56,7 @@ fn per_particle(scene: &Scene) -> (Option<f64>, Option<f64>) {
         };
         let density = part.density.as_ref().map(|density| density.kg_m3);
         let volume = 4.0 / 3.0 * PI * share;
-        let water = density.filter(|kg_m3| WATER.contains(kg_m3));
+        let water = density.filter(|kg_m3| WATER_DENSITIES.contains(kg_m3));
         flux = flux.zip(water).map(|(sum, _)| sum + volume * cubed(&fall_speed));
         mass = mass.zip(density).map(|(sum, kg_m3)| sum + volume * kg_m3 * cubed(&|_| 1.0));
     }

@@ -2,7 +2,8 @@
 //!
 //! Particles of a volume are strewn about, so that their powers add, element by element of the Mueller matrix,
 //! as cross-sections: [`Sum`] adds the slabs of several kinds of particles, or of many sizes, each by its
-//! share of the number. [`radii()`] stand for a distribution of sizes, where drops are computed by rays.
+//! share of the number. [`radii()`] stand for a distribution of sizes, where drops are computed by rays,
+//! [`SampledSizes`] where every wavelength of a colour may see another size.
 //! [`bodies()`] are the means of what they are as bodies, [`bulk()`] what a volume of air holds of them.
 //!
 //! ```
@@ -41,9 +42,11 @@
 mod bodies;
 mod bulk;
 mod radii;
+mod samples;
 mod sum;
 
 pub use bodies::bodies;
 pub use bulk::{Bulk, bulk, fall_speed};
 pub use radii::{Radius, radii};
+pub use samples::SampledSizes;
 pub use sum::Sum;

@@ -74,8 +74,8 @@ const POINTS: usize = 12;
 
 /// XYZ of Stokes I, Q, U over the directions, mixed by number × cross-section.
 struct Mixture {
-    /// Without azimuth dependence: averaged over the sun's disc beforehand.
-    round: Vec<Kind>,
+    /// Without azimuth dependence, or from a table that sees the disc: averaged over it beforehand.
+    smooth: Vec<Kind>,
     /// The others, per ring of the disc.
     rings: Vec<Vec<Kind>>,
     disc: DiscPoints,
@@ -279,10 +279,14 @@ impl Mixture {
             let share = kind.number * cross_section(kind.table) / total;
             Ok::<_, RenderError>(Kind { share, stokes: stokes.collect::<Result<Vec<_>, _>>()? })
         };
-        let (round, flat): (Vec<_>, Vec<_>) =
-            drops.iter().partition(|d| d.table.header.axes.phi.len() == 1);
-        let round =
-            round.into_iter().map(|kind| kind_of(kind, None, true)).collect::<Result<_, _>>()?;
+        let is_round = |kind: &Drops<'_>| kind.table.header.axes.phi.len() == 1;
+        let is_smooth =
+            |kind: &&Drops<'_>| is_round(kind) || kind.table.header.averaging.has_sun_disc();
+        let (smooth, flat): (Vec<_>, Vec<_>) = drops.iter().partition(is_smooth);
+        let smooth = smooth
+            .into_iter()
+            .map(|kind| kind_of(kind, None, is_round(kind)))
+            .collect::<Result<_, _>>()?;
         let rings = disc
             .mu
             .iter()
@@ -291,7 +295,7 @@ impl Mixture {
                 flat.iter().map(|kind| kind_of(kind, mu, false)).collect::<Result<Vec<_>, _>>()
             })
             .collect::<Result<_, _>>()?;
-        Ok(Self { round, rings, disc })
+        Ok(Self { smooth, rings, disc })
     }
 
     /// XYZ in a direction, averaged over the disc, behind a filter at angle ψ if there is one.
@@ -301,7 +305,7 @@ impl Mixture {
             Some(psi) => [0.5, 0.5 * (2.0 * psi).cos(), 0.5 * (2.0 * psi).sin()],
         };
         let mut total = [0.0; 3];
-        for kind in &self.round {
+        for kind in &self.smooth {
             if !kind.add(theta, phi, factors, &mut total) {
                 return None;
             }
@@ -340,10 +344,6 @@ fn check(sky: &Sky, drops: &[Drops<'_>]) -> Result<(), RenderError> {
             return invalid("filter.polariser_deg", "given".into(), accepted);
         }
         let off = (header.sun_elevation - sky.sun_elevation).abs();
-        if header.averaging.has_sun_disc() && !header.rotational_symmetry {
-            let accepted = "a table of a point-like sun: a picture smooths over the disc itself";
-            return invalid("averaged_over_sun_disc", header.shape.clone(), accepted);
-        }
         if !header.rotational_symmetry && off > 0.1 * TAU / 360.0 {
             let value = format!("{:.2}", sky.sun_elevation.to_degrees());
             let accepted = format!(

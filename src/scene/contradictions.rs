@@ -199,7 +199,8 @@ impl Scene {
             return Err(SceneError::invalid("particle.canting", value, accepted));
         }
         let accepted = "means over sizes, bands and the sun's disc need a sphere and method = \
-                        \"mie\" (or \"auto\"); \"debye\" takes the sun's disc alone, \"rays\" sizes alone";
+                        \"mie\" (or \"auto\"); \"debye\" takes the sun's disc alone, \"rays\" many sizes or \
+                        tilts, with the sun's disc or without";
         if sizes && !by_rays {
             let key = "particle.size_distribution";
             let method = format!("(many spheres) with method = \"{}\"", self.method.name());
@@ -209,7 +210,8 @@ impl Scene {
             let nm = self.bandwidth * 1e9;
             return Err(SceneError::invalid("light.bandwidth_nm", nm, accepted));
         }
-        if self.sun_disc != SunDisc::None {
+        let many = sizes || self.canting > 0.0;
+        if self.sun_disc != SunDisc::None && !(many && by_rays) {
             return Err(SceneError::invalid("light.sun_disc", self.sun_disc.name(), accepted));
         }
         Ok(())

@@ -173,7 +173,7 @@ section! {
             conflicts_with = "wavelengths_nm"]
         /// Full width at half maximum of the band that each wavelength stands for (spheres)
         bandwidth_nm: f64 [value_name = "NM", allow_negative_numbers = true]
-        /// Mean over the sun's disc (spheres)
+        /// Mean over the sun's disc (spheres; many sizes or tilts by rays)
         sun_disc: Choice<SunDisc> [value_parser = word::<SunDisc>()]
     }
 }

@@ -36,6 +36,7 @@ pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
 pub use grid::{Grid, Range, Third};
+pub(crate) use modes::WATER_DENSITIES;
 pub use modes::{Amount, Mode};
 pub use named_files::named_files;
 pub use orientation::OrientationKey;
@@ -145,7 +146,7 @@ pub enum Diffraction {
     Airy,
 }
 
-/// What the sun's disc of 0.53° does to a table of spheres.
+/// What the sun's disc of 0.53° does to a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SunDisc {
     /// The light comes from a point.

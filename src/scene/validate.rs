@@ -93,6 +93,7 @@ impl SceneFile {
             part.check_means()?;
             part.check_radial()?;
         }
+        scene.check_amount()?;
         scene.check_size()?;
         Ok(scene)
     }

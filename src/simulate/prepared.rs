@@ -1,6 +1,6 @@
 //! What is found out once for all wavelengths of a table, and the far field of each by it.
 
-use super::drops::{Steps, steps_of_kinds};
+use super::drops::{DropGuides, Steps, steps_of_kinds};
 use super::error::SimulateError;
 use crate::farfield::assignment::Method;
 use crate::farfield::patches::sheets;
@@ -17,7 +17,9 @@ use std::f64::consts::TAU;
 pub(super) struct Prepared {
     /// Radii that stand for many drops by rays.
     pub steps: Option<Steps>,
-    /// Where the rays of scattering planes start and leave.
+    /// Where the rays of those start and leave.
+    pub drops: DropGuides,
+    /// Where the rays of scattering planes of one drop do.
     pub guides: Option<Guides>,
 }
 
@@ -34,9 +36,14 @@ impl Prepared {
         let plans = if plan.parts.is_empty() { std::slice::from_ref(plan) } else { &plan.parts };
         let kinds = scene.parts().into_iter().zip(plans).zip(steps_of_kinds(scene, plan)?);
         let of_kind = |((part, plan), steps): ((Scene, &Plan), Option<Steps>)| {
-            let many = wavelengths >= plan.thresholds.fewest_guided && steps.is_none();
-            let guides = if many { guides(&part, plan)? } else { None };
-            Ok(Self { steps, guides })
+            let many = wavelengths >= plan.thresholds.fewest_guided;
+            let drops = match &steps {
+                Some(steps) if many => DropGuides::new(&part, plan, steps)?,
+                _ => DropGuides::default(),
+            };
+            let one = many && steps.is_none();
+            let guides = if one { guides(&part, plan)? } else { None };
+            Ok(Self { steps, drops, guides })
         };
         kinds.map(of_kind).collect()
     }

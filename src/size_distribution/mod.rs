@@ -18,9 +18,10 @@ mod limits;
 mod spread;
 
 pub use law::SizeLaw;
-pub use spread::{log_normal_classes, log_normal_sample};
+pub use spread::log_normal_sample;
 
 use crate::fault::{Blame, Fault};
+use crate::math::digits::to_digits;
 use crate::math::gauss_legendre;
 
 /// Why a distribution cannot be used.
@@ -35,7 +36,7 @@ pub enum SizeError {
         to: f64,
     },
     /// Nothing to average over.
-    #[error("no particles lie between {from:e} and {to:e} m")]
+    #[error("no particles lie between {} and {} µm", micrometres(*from), micrometres(*to))]
     Nothing {
         /// Metres.
         from: f64,
@@ -45,6 +46,11 @@ pub enum SizeError {
     /// The number of particles has no end towards this limit.
     #[error("the number of particles is infinite without a {0} limit")]
     Endless(&'static str),
+}
+
+/// Metres as they are written.
+fn micrometres(metres: f64) -> f64 {
+    to_digits(metres * 1e6, 9)
 }
 
 impl Blame for SizeError {
@@ -185,6 +191,24 @@ impl SizeDistribution {
             Ok(whole) => (self.ln_number - whole.ln_number).exp().min(1.0),
             Err(_) => f64::NAN,
         }
+    }
+
+    /// Radii (metres, ascending) and the share of the particles below each: 0 at the least, 1 at the largest.
+    pub fn shares_below(&self) -> Vec<(f64, f64)> {
+        if let Some(radius) = self.single() {
+            return vec![(radius, 0.0), (radius, 1.0)];
+        }
+        let (low, high) = self.span(0.0, 0.0);
+        let mut below = vec![(low, 0.0)];
+        let mut sum = 0.0;
+        for (radius, number) in self.weighted((low, high), |_| 1.0) {
+            // half of what a node stands for lies below it
+            below.push((radius, sum + 0.5 * number));
+            sum += number;
+        }
+        below.push((high, sum));
+        below.iter_mut().for_each(|(_, share)| *share /= sum);
+        below
     }
 
     /// Whether the density ends in a step at one of these radii.

@@ -37,17 +37,7 @@ impl DiscMean {
         let step = (lobe / PER_LOBE).min(SUN_ANGULAR_RADIUS / PER_RADIUS);
         let count = (PI / step).ceil() as usize;
         let lobes = SUN_ANGULAR_RADIUS / lobe;
-        let rings = (RINGS_PER_LOBE * lobes).max(LEAST_RINGS).ceil() as usize;
-        // Equal steps of ρ² are rings of equal area.
-        let ring = |(node, weight): (f64, f64)| {
-            let square = 0.5 * (1.0 + node);
-            let light = limb.map_or(1.0, |limb| limb.brightness((1.0 - square).sqrt()));
-            (SUN_ANGULAR_RADIUS * square.sqrt(), light * weight)
-        };
-        let mut rings: Vec<(f64, f64)> =
-            gauss_legendre::nodes(rings).into_iter().map(ring).collect();
-        let light: f64 = rings.iter().map(|(_, light)| light).sum();
-        rings.iter_mut().for_each(|(_, share)| *share /= light);
+        let rings = self::rings((RINGS_PER_LOBE * lobes).max(LEAST_RINGS).ceil() as usize, limb);
         let turns = 2 * rings.len();
         let turn = |j: usize| (PI * (j as f64 + 0.5) / turns as f64).cos();
         Self { rings, turns: (0..turns).map(turn).collect(), step: PI / count as f64, count }
@@ -97,14 +87,32 @@ impl DiscMean {
             };
             &fine[mirrored as usize]
         };
-        let weights = [
-            -t * (t - 1.0) * (t - 2.0) / 6.0,
-            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-            -(t + 1.0) * t * (t - 2.0) / 2.0,
-            (t + 1.0) * t * (t - 1.0) / 6.0,
-        ];
+        let weights = cubic(t);
         std::array::from_fn(|e| (0..4).map(|k| weights[k] * at(k as isize - 1)[e]).sum())
     }
+}
+
+/// Rings of equal area: their distance from the centre of the disc and their share of its light.
+pub(super) fn rings(count: usize, limb: Option<LimbDarkening>) -> Vec<(f64, f64)> {
+    let ring = |(node, weight): (f64, f64)| {
+        let square = 0.5 * (1.0 + node);
+        let light = limb.map_or(1.0, |limb| limb.brightness((1.0 - square).sqrt()));
+        (SUN_ANGULAR_RADIUS * square.sqrt(), light * weight)
+    };
+    let mut rings: Vec<(f64, f64)> = gauss_legendre::nodes(count).into_iter().map(ring).collect();
+    let light: f64 = rings.iter().map(|(_, light)| light).sum();
+    rings.iter_mut().for_each(|(_, share)| *share /= light);
+    rings
+}
+
+/// Weights of samples at -1, 0, 1 and 2 of the cubic through them, at a place between 0 and 1.
+pub(super) fn cubic(t: f64) -> [f64; 4] {
+    [
+        -t * (t - 1.0) * (t - 2.0) / 6.0,
+        (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+        -(t + 1.0) * t * (t - 2.0) / 2.0,
+        (t + 1.0) * t * (t - 1.0) / 6.0,
+    ]
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! Every point of the disc shines from its own direction, so that one direction of the sky sees scattering
 //! angles up to 0.27° on both sides of its own. What is averaged decides how:
 //! - [`DiscMean`]: curves of spheres over the whole circle of angles, finely sampled; exact at 0° and 180°.
+//! - [`DiscField`]: fields over angle and azimuth that change slowly with the latter, such as means of many drops.
 //! - [`smooth_over_sun`]: a curve as a table has it, along chords of the disc.
 //! - [`SunFilter`]: curves sampled more coarsely than their beats, which a low-pass filter takes out.
 //! - [`DiscPoints`]: what depends on the azimuth too.
@@ -20,11 +21,14 @@
 //! assert!((seen[0] - 0.6).abs() < 1e-4);
 //! ```
 
+mod field;
 mod filter;
 mod mean;
 mod points;
 mod smoothing;
 
+pub use field::DiscField;
+pub(crate) use field::near_axis;
 pub use filter::{Kernel, SunFilter};
 pub use mean::DiscMean;
 pub use points::DiscPoints;

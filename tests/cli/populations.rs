@@ -132,3 +132,43 @@ fn populations_that_make_no_sense() {
         assert!(message.contains(words), "{text}: {message}");
     }
 }
+
+/// Spheres by rays under the sun's disc, all angles, against the exact series with the same disc.
+#[test]
+fn the_disc_of_the_sun_over_many_drops() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.toml");
+    std::fs::write(
+        &path,
+        "[particle]\nshape = 'sphere'\nmedium = { index = 1.3349 }\nsize_distribution = { kind = 'normal', \
+         mean_radius_um = 87.5, deviation_um = 7, from_radius_um = 66, to_radius_um = 109 }\n[light]\n\
+         wavelengths_nm = [550]\nsun_disc = 'uniform'\n[table]\ntheta_deg = { from = 0, to = 180, count = 361 }\n\
+         azimuth_deg = [0]\n",
+    )
+    .unwrap();
+    let curve = |method: &str| {
+        let info = described(folder.path(), &[path.to_str().unwrap(), "--method", method]);
+        let words = info["averaged_over"].to_string();
+        assert!(words.contains("sun's disc (uniform)"), "{words}");
+        assert!((number(&info, "sum") - 1.0).abs() < 1e-3);
+        let table = gonio::hdf5::read(&folder.path().join("table.h5")).unwrap();
+        let slab = table.slabs.into_iter().next().unwrap();
+        (slab.values.index_axis(ndarray::Axis(0), 0).column(0).to_vec(), slab.error_by_band)
+    };
+    let ((rays, stated), (exact, _)) = (curve("rays"), curve("mie"));
+    for (from, to, bound) in BANDS_OF_THE_DISC {
+        let sum = |curve: &[f32]| -> f64 {
+            (2 * from..2 * to)
+                .map(|i| f64::from(curve[i]) * (i as f64 / 2.0).to_radians().sin())
+                .sum()
+        };
+        let off = sum(&rays) / sum(&exact) - 1.0;
+        println!("{from} to {to}: {:.2} %", 100.0 * off);
+        assert!(off.abs() < bound, "{from} to {to}: {off}");
+    }
+    println!("stated by band: {stated}");
+}
+
+/// Degrees, and what rays of x = 1000 err by there.
+const BANDS_OF_THE_DISC: [(usize, usize, f64); 5] =
+    [(0, 3, 0.02), (3, 60, 0.01), (60, 120, 0.05), (120, 160, 0.02), (160, 180, 0.05)];

@@ -98,6 +98,36 @@ fn picture_of(wavelengths: &str, theta: (f64, f64), camera: &[&str]) -> assert_c
         .assert()
 }
 
+/// A population in the scene of a picture, in the scene of a table that it names, and in the finished table are one.
+#[test]
+fn a_population_is_drawn_as_it_is_tabulated() {
+    let particle = "shape = \"sphere\"\nsize_distribution = { kind = \"gamma\", effective_radius_um = 6, \
+                    effective_variance = 0.1 }\n";
+    let view = "[camera]\nwidth = 48\nheight = 27\n[sun]\nelevation_deg = 10\n[[drops]]\n";
+    let (folder, own) = scene(&format!("{view}wavelengths = 9\n{particle}"));
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "population.toml",
+        &format!("[particle]\n{particle}[light]\nwavelengths_nm = [400, 500]\n"),
+    );
+    write("named.toml", &format!("{view}wavelengths = 9\nscene = \"population.toml\"\n"));
+    write("finished.toml", &format!("{view}table = \"t.h5\"\n"));
+    let table = ["table", "population.toml", "-o", "t.h5", "--no-preview"];
+    let grid =
+        ["--wavelengths-nm", "390:710:n9", "--theta-deg", "2:180:n1781", "--azimuth-deg", "0"];
+    let asked = ["--tolerance", "0.05", "--allow-unmet-tolerance"];
+    gonio().current_dir(folder.path()).args(table).args(grid).args(asked).assert().success();
+    let drawn = |scene: &Path| {
+        let png = folder.path().join("bow.png");
+        gonio().arg("render").arg(scene).arg("--overwrite").arg("-o").arg(&png).assert().success();
+        pixels(&png)
+    };
+    let known = drawn(&folder.path().join("finished.toml"));
+    assert!(known.chunks_exact(3).any(|pixel| pixel != &known[..3]));
+    assert!(drawn(&own) == known);
+    assert!(drawn(&folder.path().join("named.toml")) == known);
+}
+
 /// A background comes out as it is stated, where no light of the drops is added.
 #[test]
 fn a_background_is_as_stated() {

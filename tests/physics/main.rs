@@ -19,6 +19,7 @@ mod medium_input;
 mod medium_kramers_kronig;
 mod medium_references;
 mod one_drop;
+mod rain;
 mod random_scenes;
 mod reciprocity;
 mod series_debye_reference;

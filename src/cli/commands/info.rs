@@ -110,6 +110,8 @@ fn describe(path: &Path, reader: &TableReader) -> Result<Value> {
             "backscatter_m2_sr": optics.backscatter.map(number),
             "backward_depolarisation": optics.depolarisation.map(number),
             "extinction_per_m": optics.extinction_per_length.map(number),
+            "scattering_per_m": optics.scattering_per_length.map(number),
+            "backscatter_per_m_sr": optics.backscatter_per_length.map(number),
             "extinction_m2_kg": optics.extinction_per_mass.map(number),
             "sum": slab.sum(&header.axes),
             "sum_before_peak": slab.sum_before_peak,

@@ -1,6 +1,7 @@
 //! What the netCDF databases of radiative transfer programs have in common.
 
 use crate::export::average::{Averaged, Curve};
+use crate::export::bulk::Coefficients;
 use crate::export::notes::{density_note, notes, shape_note};
 use crate::hdf5::{NetcdfValues, NetcdfVariable};
 use crate::phase_table::PhaseTable;
@@ -31,6 +32,34 @@ pub(in crate::export) fn per_curve(
 /// Single-scattering albedo.
 pub(in crate::export) fn albedo(curve: &Curve) -> f64 {
     curve.scattering_cross_section / curve.extinction_cross_section
+}
+
+/// The coefficients as variables of a netCDF file along some dimensions: those that all curves have.
+pub(in crate::export) fn coefficients(
+    dimensions: &[&str],
+    curves: &[(&PhaseTable, &Curve)],
+) -> Vec<NetcdfVariable> {
+    let all: Vec<Coefficients> =
+        curves.iter().map(|(table, curve)| Coefficients::of(table, curve)).collect();
+    let column =
+        |of: fn(&Coefficients) -> Option<[f64; 2]>, name: &str, words: &str, units: &str| {
+            let values: Option<Vec<f64>> = all.iter().map(|c| of(c).map(|pair| pair[0])).collect();
+            let attributes = [("units", units), ("long_name", words)];
+            values.map(|values| variable(name, dimensions, NetcdfValues::F64(values), &attributes))
+        };
+    let per_length = column(
+        |c| c.per_length,
+        "extinction_per_length",
+        "extinction coefficient of the volume that the scene tells",
+        "m-1",
+    );
+    let per_mass = column(
+        |c| c.per_mass,
+        "extinction_per_mass",
+        "extinction by mass of the particles",
+        "m2 kg-1",
+    );
+    per_length.into_iter().chain(per_mass).collect()
 }
 
 /// Attributes of the file: where it is from, what was done to the table, and `more`.

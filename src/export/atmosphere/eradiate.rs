@@ -1,5 +1,6 @@
 //! Eradiate's Aer-Core v2: `mu` ascending, ∫ p dμ = 2 by the trapezoid rule that Eradiate uses,
-//! `pmom` of p11 with the factor 2l+1. The extinction is that of one particle per cubic metre.
+//! `pmom` of p11 with the factor 2l+1. The extinction is that of one particle per cubic metre;
+//! `extinction_per_length` beside it that of the scene's amount.
 //!
 //! Elements stand in libRadtran's order, 11, 12, 33, 34 of spheres and then 22, 44 of spheroids (and whatever
 //! else is no sphere): Eradiate 1.2 counts them by position and tells spheroids by their number, six.
@@ -7,12 +8,13 @@
 //! (µm) and `veff` between `w` and the angles.
 
 use crate::export::ExportError;
-use crate::export::atmosphere::database::{albedo, attributes, variable};
+use crate::export::atmosphere::database::{albedo, attributes, coefficients, variable};
 use crate::export::atmosphere::legendre::expand;
 use crate::export::atmosphere::size_grid::SizeGrid;
 use crate::export::atmosphere::source::Source;
 use crate::export::average::{Averaged, Curve};
 use crate::hdf5::{NetcdfFile, NetcdfValues, NetcdfVariable};
+use crate::phase_table::PhaseTable;
 
 /// What is written: sizes, their averages, and the names of the dimensions between wavelength and angle.
 struct Layout<'a> {
@@ -135,7 +137,7 @@ impl Layout<'_> {
             let [p11, ..] = expand(a, curve, moments).alpha;
             p11
         });
-        vec![
+        let mut variables = vec![
             variable(
                 "ext",
                 &plain,
@@ -186,7 +188,15 @@ impl Layout<'_> {
                     ("comment", "p11 only; including factor 2l+1"),
                 ],
             ),
-        ]
+        ];
+        variables.extend(coefficients(&plain, &self.with_tables()));
+        variables
+    }
+
+    /// Curves in the same order, each with its table.
+    fn with_tables(&self) -> Vec<(&PhaseTable, &Curve)> {
+        let tables = &self.source.grid.tables;
+        self.curves().zip(tables.iter().cycle()).map(|((_, curve), table)| (table, curve)).collect()
     }
 
     /// Values by element, wavelength, size and ascending μ, scaled to Eradiate's integral.

@@ -6,7 +6,7 @@
 //! effective radius does not give it (⟨r³⟩ is (1 − v)(1 − 2v) r_eff³ for gamma, exp(−3s²) r_eff³ for
 //! log-normal). A table without density is refused.
 
-use crate::export::atmosphere::database::{albedo, attributes, variable};
+use crate::export::atmosphere::database::{albedo, attributes, coefficients, variable};
 use crate::export::atmosphere::legendre::expand;
 use crate::export::atmosphere::size_grid::{SizeGrid, untold};
 use crate::export::atmosphere::source::Source;
@@ -155,7 +155,7 @@ impl Layout<'_> {
         let index = |value: fn(&crate::phase_table::Slab) -> f64| {
             NetcdfValues::F64(slabs.iter().map(value).collect())
         };
-        vec![
+        let mut variables = vec![
             // One particle per volume V has its mass per V: m²/kg, then 1000 m and 0.001 kg.
             variable(
                 "ext",
@@ -173,6 +173,10 @@ impl Layout<'_> {
                 self.number(|table, _| self.masses[table].0 / 1000.0),
                 &[("units", "g/cm3")],
             ),
-        ]
+        ];
+        let tables = &self.source.grid.tables;
+        let curves: Vec<_> = self.curves().map(|(table, curve)| (&tables[table], curve)).collect();
+        variables.extend(coefficients(&grid, &curves));
+        variables
     }
 }

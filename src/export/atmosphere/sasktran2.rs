@@ -6,7 +6,7 @@
 //! `mode_width` (geometric standard deviation) of log-normal sizes; `radius_um` of single ones; else the
 //! name of the swept key.
 
-use crate::export::atmosphere::database::{attributes, per_curve, variable};
+use crate::export::atmosphere::database::{attributes, coefficients, per_curve, variable};
 use crate::export::atmosphere::legendre::{Moments, expand};
 use crate::export::average::Averaged;
 use crate::hdf5::{NetcdfFile, NetcdfValues};
@@ -95,6 +95,11 @@ pub fn database(
         ),
         variable("peak_share", grid, per_curve(&averaged, |c| c.peak_share), &[("units", "1")]),
     ]);
+    let curves: Vec<_> = tables
+        .iter()
+        .flat_map(|(table, averaged)| averaged.curves.iter().map(|curve| (*table, curve)))
+        .collect();
+    variables.extend(coefficients(grid, &curves));
     for (i, name) in ["lm_a1", "lm_a2", "lm_a3", "lm_a4"].into_iter().enumerate() {
         variables.push(variable(name, &deep, column(&|m| &m.alpha[i], 1.0), &[]));
     }

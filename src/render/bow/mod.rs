@@ -6,6 +6,7 @@
 mod drops;
 mod error;
 mod keys;
+mod sphere;
 
 pub use drops::DropKeys;
 pub use error::BowError;
@@ -35,8 +36,14 @@ impl BowScene {
         let usual = asked.unwrap_or(USUAL_SUN);
         self.sky(usual.to_radians())?;
         self.camera(usual.to_radians())?;
-        let tables = drops::tables(&self.drops, folder, usual, polarised, tell)?;
-        if let Some(note) = note_on_disc(&tables, self.sun.disc) {
+        let wanted = drops::Wanted {
+            sun_elevation_deg: usual,
+            sun_disc: self.sun.disc.unwrap_or(true),
+            polarised,
+        };
+        let tables = drops::tables(&self.drops, folder, wanted, tell)?;
+        let read = self.drops.iter().any(|kind| kind.table.is_some());
+        if let Some(note) = note_on_disc(&tables, self.sun.disc).filter(|_| read) {
             tell(note);
         }
         let elevation = asked.map(f64::to_radians).unwrap_or_else(|| {

@@ -1,5 +1,7 @@
 //! The section `[amount]`: how many particles a volume holds.
 
+use crate::math::digits::to_digits;
+use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::file::AmountKeys;
 
@@ -22,6 +24,41 @@ const NUMBERS: (f64, f64) = (1e-12, 1e12);
 const CONTENTS: (f64, f64) = (1e-12, 1e6);
 /// mm/h in m/s.
 const MM_H: f64 = 1e-3 / 3600.0;
+
+/// Densities of water that rains, kg/m³.
+pub(crate) const WATER_DENSITIES: std::ops::RangeInclusive<f64> = 950.0..=1050.0;
+
+impl Scene {
+    /// Rain is of water, and a mass of what has a density.
+    pub(in crate::scene) fn check_amount(&self) -> Result<(), SceneError> {
+        let parts = self.parts();
+        let density = |part: &Scene| part.density.as_ref().map(|density| density.kg_m3);
+        match self.amount {
+            Some(Amount::RainRate(rate)) => {
+                let dry =
+                    |part: &&Scene| !density(part).is_some_and(|kg| WATER_DENSITIES.contains(&kg));
+                match parts.iter().find(dry) {
+                    None => Ok(()),
+                    Some(part) => {
+                        let value =
+                            format!("{} of {}", to_digits(rate / MM_H, 9), part.medium.name());
+                        let accepted = "rain is of water (density_kg_m3 of 950 to 1050); give \
+                                        number_per_cm3 or water_content_g_m3";
+                        Err(SceneError::invalid("amount.rain_rate_mm_h", value, accepted))
+                    }
+                }
+            }
+            Some(Amount::MassContent(content))
+                if parts.iter().any(|part| density(part).is_none()) =>
+            {
+                let accepted = "a mass needs the density of every medium: give density_kg_m3";
+                let value = to_digits(content * 1e3, 9);
+                Err(SceneError::invalid("amount.water_content_g_m3", value, accepted))
+            }
+            _ => Ok(()),
+        }
+    }
+}
 
 /// # Errors
 /// A number that is not accepted, or two that may contradict each other.

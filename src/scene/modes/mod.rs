@@ -7,6 +7,7 @@
 mod amount;
 
 pub use amount::Amount;
+pub(crate) use amount::WATER_DENSITIES;
 pub(super) use amount::amount;
 
 use super::choice::AxisRatioKey;
@@ -338,6 +339,30 @@ mod tests {
         let parts = scene(["number_fraction = 0.2", "number_fraction = 0.8"]).unwrap().parts();
         assert_eq!(parts[1].particle, Particle::Sphere { radius: 2e-6 });
         assert!(parts[1].modes.is_empty());
+    }
+
+    /// Of glass no rain falls, and of what has no density no mass is known.
+    #[test]
+    fn amounts_that_cannot_be() {
+        let scene = |medium: &str, amount: &str| {
+            let text = format!(
+                "[particle]\nshape = 'sphere'\nradius_um = 1\n{medium}\n[amount]\n{amount}\n[light]\n\
+                 wavelengths_nm = [550]\n"
+            );
+            Scene::from_text(SceneText::parse("test", text).unwrap(), &SceneFile::default())
+        };
+        let (glass, heavy) = ("medium = { index = 1.5 }", "density_kg_m3 = 2000");
+        for (medium, amount, words) in [
+            (glass.into(), "rain_rate_mm_h = 5", "rain is of water"),
+            (format!("{glass}\n{heavy}"), "rain_rate_mm_h = 5", "rain is of water"),
+            (glass.into(), "water_content_g_m3 = 5", "give density_kg_m3"),
+        ] {
+            let error = scene(&medium, amount).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+        assert!(scene(&format!("{glass}\n{heavy}"), "water_content_g_m3 = 5").is_ok());
+        assert!(scene(glass, "number_per_cm3 = 5").is_ok());
+        assert!(scene("medium = 'water'", "rain_rate_mm_h = 5").is_ok());
     }
 
     #[test]

@@ -5,6 +5,9 @@
 
 use crate::math::half_turn::shares;
 use crate::optics::mirror_sign;
+use crate::plan::{Plan, Symmetry};
+use crate::scene::{Scene, SunDisc};
+use crate::sun_disc::near_axis;
 use ndarray::{Array3, Axis};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -25,9 +28,27 @@ pub(super) enum Azimuths {
 }
 
 impl Azimuths {
-    /// For the azimuths of a table that are computed, and their places.
-    pub fn new((computed, places): (Vec<f64>, Vec<(usize, bool)>)) -> Self {
-        if computed.len() <= STEPS { Self::Asked(computed, places) } else { Self::Even }
+    /// For the azimuths of a table that are computed, and their places; at all of them where a mean over the sun's
+    /// disc `takes_together` what is about the axis.
+    pub fn new((computed, places): (Vec<f64>, Vec<(usize, bool)>), takes_together: bool) -> Self {
+        if computed.len() <= STEPS && !takes_together {
+            Self::Asked(computed, places)
+        } else {
+            Self::Even
+        }
+    }
+
+    /// Those of one kind of drops under a scene's sun.
+    pub fn of(scene: &Scene, plan: &Plan) -> Self {
+        let together = scene.sun_disc != SunDisc::None
+            && plan.symmetry != Symmetry::Rotational
+            && near_axis(&scene.theta);
+        Self::new(plan.computed_azimuths(&plan.table_azimuths(&scene.phi)), together)
+    }
+
+    /// Even steps of a half-turn, where they are.
+    pub fn half_turn(&self) -> Option<usize> {
+        (*self == Self::Even).then_some(STEPS)
     }
 
     /// Radians, in [0, π].
@@ -82,7 +103,7 @@ mod tests {
     fn few_azimuths_make_many() {
         let table: Vec<f64> = (0..=360).map(|i| f64::from(i).to_radians()).collect();
         let folded: Vec<f64> = (0..=180).map(|i| f64::from(i).to_radians()).collect();
-        let azimuths = Azimuths::new((folded, Vec::new()));
+        let azimuths = Azimuths::new((folded, Vec::new()), false);
         let computed = azimuths.computed();
         assert_eq!(computed.len(), STEPS + 1);
         let known = |e: usize, phi: f64| {
@@ -94,7 +115,7 @@ mod tests {
         for ((e, _, j), value) in spread.indexed_iter() {
             assert!((value - known(e, table[j])).abs() < 2e-5, "{e} {j}: {value}");
         }
-        let few = Azimuths::new((vec![0.0, 1.0], vec![(1, true), (0, false)]));
+        let few = Azimuths::new((vec![0.0, 1.0], vec![(1, true), (0, false)]), false);
         assert_eq!(few.computed(), [0.0, 1.0]);
         let values = Array3::from_shape_fn((16, 1, 2), |(_, _, j)| 1.0 + j as f64);
         let spread = few.spread(&values, &[-1.0, 0.0]);

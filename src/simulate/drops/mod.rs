@@ -4,16 +4,20 @@
 //! what is left of interference are the fringes within each order (supernumeraries). So of every order the
 //! amplitudes of one drop add, and orders add as powers: the mean converges with a tenth of the radii that
 //! the coherent sum needs, to the same (`validation/population.md`). Of each order as many radii are taken
-//! as it needs ([`Steps`]), each with another tilt where drops cant ([`tilt`]), azimuths are as few as the mean is smooth by ([`azimuths`]), and the difference
-//! to every second radius is the error that the table states.
+//! as it needs ([`Steps`]), each with another tilt where drops cant ([`tilt`]), azimuths are as few as the mean is smooth by ([`azimuths`]), the sun's disc smooths
+//! the mean where it is asked for ([`seen`]), and the difference to every second radius is the error that the table
+//! states.
 
 mod azimuths;
 mod error;
+mod guided;
 mod one_order;
+mod seen;
 mod slab;
 mod steps;
 mod tilt;
 
+pub(super) use guided::DropGuides;
 pub(super) use slab::slab;
 pub use steps::Steps;
 

@@ -1,8 +1,8 @@
 //! What one order of one drop scatters, in units of its squared radius.
 
 use super::tilt::Tilt;
-use crate::farfield::assignment::Assignment;
-use crate::farfield::{FarField, FarFieldSettings};
+use crate::farfield::assignment::{Assignment, Method};
+use crate::farfield::{FarField, FarFieldSettings, Guides};
 use crate::phase_table::Axes;
 use crate::plan::{Plan, PlanError, Symmetry, shape};
 use crate::population::Radius;
@@ -53,8 +53,15 @@ impl Drop {
     }
 
     /// `dC/dΩ` over the squared radius of an order (order 0 with forward diffraction), at scattering angles and
-    /// azimuths of a half-turn: one azimuth for all where the drop looks the same from all.
-    pub fn order(&self, scene: &Scene, order: u32, azimuths: &[f64]) -> Array3<f32> {
+    /// azimuths of a half-turn: one azimuth for all where the drop looks the same from all. By guides to the
+    /// order's planes where there are any.
+    pub fn order(
+        &self,
+        scene: &Scene,
+        order: u32,
+        azimuths: &[f64],
+        guides: Option<&Guides>,
+    ) -> Array3<f32> {
         let x = self.size_parameter();
         let rotational = self.plan.symmetry == Symmetry::Rotational;
         let seen: Vec<f64> = match rotational {
@@ -65,7 +72,7 @@ impl Drop {
         let (azimuths, places) = self.plan.computed_azimuths(&seen);
         let diffraction = order == 0;
         let plan = Plan { orders: vec![order], ..self.plan.clone() };
-        let far_field = self.far_field(&plan, diffraction);
+        let far_field = self.far_field(&plan, diffraction, guides);
         let tabulator = Tabulator {
             theta: &scene.theta,
             size_parameter: x,
@@ -88,18 +95,41 @@ impl Drop {
         values
     }
 
-    fn far_field<'a>(&self, plan: &'a Plan, diffraction: bool) -> FarField<'a> {
+    /// Guides to the planes of an order at all indices (real parts) between two, if it has planes.
+    pub fn guides(&self, order: u32, range: [f64; 2]) -> Option<Guides> {
+        if self.plan.symmetry == Symmetry::Rotational {
+            return None;
+        }
+        let orders = self.assignment(&self.plan, &[order]).orders_of(Method::Planes);
+        let guides = || {
+            let Plan { shape, tolerance, thresholds, .. } = &self.plan;
+            Guides::new(shape, &orders, *tolerance, range, thresholds)
+        };
+        (!orders.is_empty()).then(guides)
+    }
+
+    fn assignment(&self, plan: &Plan, orders: &[u32]) -> Assignment {
         let x = self.size_parameter();
         let tracer = plan.tracer(self.index, x);
-        let by = &plan.thresholds;
-        let assignment = Assignment::new(&tracer, &plan.orders, x, plan.tolerance, by);
+        Assignment::new(&tracer, orders, x, plan.tolerance, &plan.thresholds)
+    }
+
+    fn far_field<'a>(
+        &self,
+        plan: &'a Plan,
+        diffraction: bool,
+        guides: Option<&Guides>,
+    ) -> FarField<'a> {
+        let x = self.size_parameter();
+        let tracer = plan.tracer(self.index, x);
+        let assignment = self.assignment(plan, &plan.orders);
         let settings = FarFieldSettings {
             size_parameter: x,
             orders: &plan.orders,
             tolerance: plan.tolerance,
             diffraction,
         };
-        FarField::assigned(&tracer, &settings, assignment)
+        FarField::guided(&tracer, &settings, assignment, guides)
     }
 
     /// Cross-sections over the squared radius: extinction by the wave straight ahead of order 0 and diffraction
@@ -110,7 +140,7 @@ impl Drop {
     pub fn sections(&self) -> Result<CrossSections, SimulateError> {
         let budget = energy(&self.plan, self.wavelength, self.index, self.size_parameter())?;
         let plan = Plan { orders: vec![0], forward_diffraction: true, ..self.plan.clone() };
-        let far_field = self.far_field(&plan, true);
+        let far_field = self.far_field(&plan, true, None);
         Ok(CrossSections::new(&plan, &far_field, self.index, budget.absorbed))
     }
 }

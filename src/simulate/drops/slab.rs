@@ -2,11 +2,13 @@
 
 use super::azimuths::Azimuths;
 use super::error::band_errors;
+use super::guided::DropGuides;
 use super::one_order::Drop;
+use super::seen::Seen;
 use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
 use crate::farfield::forward::penumbra_layout::near_axis;
 use crate::medium::Light;
-use crate::phase_table::{Axes, ForwardPeak, MethodPart, Slab};
+use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, MethodPart, Slab};
 use crate::plan::Plan;
 use crate::population::{Radius, radii};
 use crate::scene::Scene;
@@ -25,16 +27,18 @@ const AT_ONCE: usize = 8;
 pub(crate) fn slab(
     scene: &Scene,
     plan: &Plan,
-    steps: &Steps,
+    (steps, guides): (&Steps, &DropGuides),
     wavelength: f64,
 ) -> Result<Slab, SimulateError> {
     let sizes = &sizes_of(scene);
     let Light { wavelength: seen, index } = scene.medium.light(wavelength)?;
     let light = (seen, index);
     let table = plan.table_azimuths(&scene.phi);
-    let azimuths = Azimuths::new(plan.computed_azimuths(&table));
+    let azimuths = Azimuths::of(scene, plan);
     let computed = azimuths.computed();
-    let shape = (scene.quantity.elements(), scene.theta.len(), computed.len());
+    let disc = Seen::new(scene, wavelength, &azimuths);
+    let traced = disc.scene(scene);
+    let shape = (scene.quantity.elements(), traced.theta.len(), computed.len());
     let mut means = [Array3::zeros(shape), Array3::zeros(shape)];
     let mut sections = [0.0; 2];
     for part in &steps.parts {
@@ -43,8 +47,9 @@ pub(crate) fn slab(
             let found: Vec<Array3<f32>> = some
                 .par_iter()
                 .map(|at| {
-                    let drop = Drop::new(scene, plan, at, light)?;
-                    Ok(drop.order(scene, part.order, &computed))
+                    let drop = Drop::new(&traced, plan, at, light)?;
+                    let guides = guides.of(at, part.order);
+                    Ok(drop.order(&traced, part.order, &computed, guides))
                 })
                 .collect::<Result<_, SimulateError>>()?;
             for (values, at) in found.iter().zip(some) {
@@ -57,11 +62,13 @@ pub(crate) fn slab(
             sections[1] += absorption;
         }
     }
+    let means = disc.means(means);
     let [extinction, absorption] = sections;
     let scattering = extinction - absorption;
     let size_parameter = TAU * sizes.effective_radius() / seen;
     let errors = band_errors(&scene.theta, &((&means[0] - &means[1]) * OF_DIFFERENCE), &means[0])
-        .and(|theta| plan.thresholds.doubt_of_powers(size_parameter, theta));
+        .and(|theta| plan.thresholds.doubt_of_powers(size_parameter, theta))
+        .beside(disc.error(), &[disc.error(); ERROR_BANDS]);
     let axes =
         Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: table.clone() };
     let mut values = azimuths.spread(&means[0], &table) / scattering;

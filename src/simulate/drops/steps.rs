@@ -7,7 +7,9 @@
 use super::azimuths::Azimuths;
 use super::error::band_errors;
 use super::one_order::Drop;
+use super::seen::{Means, Seen};
 use crate::medium::{Light, MediumError};
+use crate::phase_table::Quantity;
 use crate::plan::Plan;
 use crate::population::{Radius, radii};
 use crate::scene::{Particle, Scene};
@@ -74,12 +76,19 @@ pub(super) fn sizes_of(scene: &Scene) -> SizeDistribution {
 }
 
 /// Light of the middle one of a scene's wavelengths.
-fn middle_light(scene: &Scene) -> Result<Light, MediumError> {
+pub(super) fn middle_light(scene: &Scene) -> Result<Light, MediumError> {
     scene.medium.light(scene.wavelengths[scene.wavelengths.len() / 2])
 }
 
-/// The means of an order over every radius and every second.
-type Means = [Array3<f64>; 2];
+/// Least and largest index (real part) of a scene's wavelengths.
+pub(super) fn index_range(scene: &Scene) -> Result<[f64; 2], MediumError> {
+    let mut range = [f64::MAX, f64::MIN];
+    for wavelength in &scene.wavelengths {
+        let index = scene.medium.light(*wavelength)?.index.re;
+        range = [range[0].min(index), range[1].max(index)];
+    }
+    Ok(range)
+}
 
 impl Steps {
     /// Radii for a scene of one kind of drops with a distribution of sizes.
@@ -96,8 +105,10 @@ impl Steps {
             [one] => vec![plan.computed_azimuths(&[*one]).0[0]],
             _ => AZIMUTHS.to_vec(),
         };
-        let trial =
-            Scene { quantity: crate::phase_table::Quantity::PhaseFunction, ..scene.clone() };
+        // each azimuth by itself
+        let apart = Azimuths::new((azimuths.clone(), Vec::new()), false);
+        let seen = Seen::new(scene, wavelength, &apart);
+        let trial = Scene { quantity: Quantity::PhaseFunction, ..seen.scene(scene) };
         let mut parts = Vec::new();
         for (stretch, spheres) in stretches(scene, sizes) {
             let steps = |order: u32| if order < FAINT { LEAST } else { LEAST / 2 };
@@ -106,6 +117,7 @@ impl Steps {
         }
         let mut drops = Tried {
             scene: &trial,
+            seen: &seen,
             plan,
             azimuths: &azimuths,
             index,
@@ -154,15 +166,19 @@ impl Steps {
     ) -> Result<f64, SimulateError> {
         let Light { wavelength, index } = middle_light(scene)?;
         let light = (wavelength, index);
-        let table = plan.table_azimuths(&scene.phi);
-        let azimuths = Azimuths::new(plan.computed_azimuths(&table)).computed();
+        let many = scene.wavelengths.len() >= plan.thresholds.fewest_guided;
+        let range = if many { Some(index_range(scene)?) } else { None };
+        let azimuths = Azimuths::of(scene, plan);
+        let scene = &Seen::new(scene, wavelength, &azimuths).scene(scene);
+        let azimuths = azimuths.computed();
         let mut total = 0.0;
         for part in &self.parts {
             let (from, to) = part.stretch;
             let middle = Radius { radius: 0.5 * (from + to), place: 0.5, weight: 0.0, coarse: 0.0 };
             let drop = Drop::new(scene, plan, &middle, light)?;
+            let guides = range.and_then(|range| drop.guides(part.order, range));
             let seconds = time(&mut || {
-                drop.order(scene, part.order, &azimuths);
+                drop.order(scene, part.order, &azimuths, guides.as_ref());
                 Ok(())
             })?;
             total += seconds * (part.steps + 1) as f64;
@@ -195,6 +211,7 @@ impl Steps {
 /// Drops that were tried, by radius and order: finer steps keep all radii of coarser ones.
 struct Tried<'a> {
     scene: &'a Scene,
+    seen: &'a Seen,
     plan: &'a Plan,
     azimuths: &'a [f64],
     index: Complex64,
@@ -210,11 +227,11 @@ impl Tried<'_> {
             let key = (at.radius.to_bits(), at.place.to_bits(), part.order);
             if !self.found.contains_key(&key) {
                 let drop = Drop::new(self.scene, self.plan, &at, (self.wavelength, self.index))?;
-                self.found.insert(key, drop.order(self.scene, part.order, self.azimuths));
+                self.found.insert(key, drop.order(self.scene, part.order, self.azimuths, None));
             }
             add(&mut means, &self.found[&key], [at.weight, at.coarse]);
         }
-        Ok(means)
+        Ok(self.seen.means(means))
     }
 }
 
