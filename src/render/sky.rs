@@ -16,10 +16,10 @@ use super::tristimulus::Tristimulus;
 use crate::color::{
     Illuminant, Observer, SUN_ANGULAR_RADIUS, encode_srgb, fit_gamut, xyz_to_linear_srgb,
 };
+use crate::math::parallel::*;
 use crate::phase_table::{PhaseTable, Quantity};
 use crate::sun_disc::DiscPoints;
 use glam::DVec3;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Where the drops are.

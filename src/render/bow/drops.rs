@@ -3,6 +3,7 @@
 use super::error::BowError;
 use crate::lee::Beats;
 use crate::lee::sampling::{Sampling, SamplingNeed};
+use crate::math::parallel::*;
 use crate::medium::{Medium, MediumSpec};
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, PhaseTable, Quantity, Slab, TableHeader};
@@ -13,7 +14,6 @@ use crate::simulate;
 use crate::size_distribution::log_normal_classes;
 use ndarray::Array3;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;

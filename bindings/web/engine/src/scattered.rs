@@ -9,6 +9,7 @@ use gonio::color::SUN_ANGULAR_RADIUS;
 use gonio::optics::{AmplitudeMatrix, rainbow_angle};
 use gonio::plan::Plan;
 use gonio::scene::{Orders, Scene};
+use gonio::series::angular::{AngleSet, amplitudes, amplitudes_together};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::layered::Layered;
 use gonio::series::lorenz_mie::Sphere;
@@ -205,18 +206,21 @@ impl Question {
 
     fn sphere(&self, x: f64, index: Complex64, theta: &[f64]) -> Result<Curves, Trouble> {
         let whole = Sphere::new(x, index).map_err(|error| Trouble::of(&error))?;
+        let mut waves = vec![(whole.a().to_vec(), whole.b().to_vec())];
+        if !self.orders.is_empty() {
+            let series = DebyeSeries::new(x, index).map_err(|error| Trouble::of(&error))?;
+            waves.extend(self.orders.iter().map(|p| series.coefficients(&[Term::Order(*p)])));
+        }
+        let mut each = summed(&waves, theta);
         let pairs = |pairs: Vec<(Complex64, Complex64)>| -> Curve {
             pairs.into_iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect()
         };
         let mut curves = Curves {
-            whole: pairs(whole.amplitudes(theta)),
+            whole: pairs(each.remove(0)),
             method: "Lorenz–Mie series",
             ..Curves::default()
         };
-        if !self.orders.is_empty() {
-            let series = DebyeSeries::new(x, index).map_err(|error| Trouble::of(&error))?;
-            let each: Vec<Vec<(Complex64, Complex64)>> =
-                self.orders.iter().map(|p| series.amplitudes(Term::Order(*p), theta)).collect();
+        if !each.is_empty() {
             let add = |i: usize| {
                 each.iter().fold((Complex64::default(), Complex64::default()), |s, e| {
                     (s.0 + e[i].0, s.1 + e[i].1)
@@ -262,6 +266,19 @@ impl Question {
         }
         Ok(curves)
     }
+}
+
+/// (S1, S2) of partial waves a_n, b_n; two by two, since they share the functions of the angle.
+fn summed(
+    waves: &[(Vec<Complex64>, Vec<Complex64>)],
+    theta: &[f64],
+) -> Vec<Vec<(Complex64, Complex64)>> {
+    let set = AngleSet::new(theta);
+    let sums = waves.chunks(2).flat_map(|some| match some {
+        [p, q] => amplitudes_together([(&p.0[..], &p.1[..]), (&q.0, &q.1)], &set).to_vec(),
+        _ => some.iter().map(|(a, b)| amplitudes(a, b, &set)).collect(),
+    });
+    sums.collect()
 }
 
 fn intensities(amplitudes: &[AmplitudeMatrix]) -> Curve {

@@ -100,12 +100,13 @@ struct Question {
 }
 
 /// Luminance of the brightest place between [`BOWS`], at 0 stops, above the background.
-const BRIGHTEST: f64 = 0.45;
+pub const BRIGHTEST: f64 = 0.45;
 /// Scattering angles of the bows, degrees, whose brightness sets the exposure.
 const BOWS: (f64, f64) = (120.0, 160.0);
 /// Colours of the air beside the bow and of the ground, linear sRGB.
-const BACKGROUND: [f64; 3] = [0.055, 0.075, 0.105];
-const GROUND: [f64; 3] = [0.022, 0.028, 0.018];
+pub const BACKGROUND: [f64; 3] = [0.055, 0.075, 0.105];
+/// As [`BACKGROUND`].
+pub const GROUND: [f64; 3] = [0.022, 0.028, 0.018];
 /// Most pixels of a picture.
 const MOST_PIXELS: usize = 4_000_000;
 

@@ -3,7 +3,7 @@
 import type { Reply } from "../engine/message";
 import { dropOf, isRound, SHAPES, type State } from "../state";
 import { Chart, type Curve, range } from "../parts/chart";
-import { columnOf } from "../parts/column";
+import { columnOf, SKETCH } from "../parts/column";
 import { make, themed } from "../parts/dom";
 import { drawn, PLOT, table } from "../parts/picture";
 import { angleName, angleShown, digits, sizeText } from "../parts/units";
@@ -49,7 +49,7 @@ export function compareView(page: Page): View {
     });
     const off: Curve[] = [{ name: intensity ? `relative difference, means over ${BAND}°` : `difference, means over ${BAND}°`, colour: themed("--order-4"), values: ratio }];
     const largest = Math.min(10, Math.max(0.02, ...ratio.map((value) => (Number.isFinite(value) ? Math.abs(value) : 0))));
-    error.show({ x, y: { label: "second − first", from: -1.05 * largest, to: 1.05 * largest }, at, curves: off, marks: [] });
+    error.show({ x, y: { label: intensity ? "(second − first) / first" : "second − first", from: -1.05 * largest, to: 1.05 * largest }, at, curves: off, marks: [] });
     shown = { at, curves: [...curves, ...off] };
     const middle = ratio.map(Math.abs).filter(Number.isFinite).sort((p, q) => p - q);
     words.textContent = `Half of the angles differ by less than ${digits(100 * (middle[Math.floor(middle.length / 2)] ?? NaN), 3)} %, the worst by ${digits(100 * (middle.at(-1) ?? NaN), 3)} %.`;
@@ -88,7 +88,7 @@ export function compareView(page: Page): View {
           const xyz = reply?.f64["xyz"] ?? new Float64Array();
           return Float64Array.from({ length: xyz.length / 3 }, (_, i) => xyz[6 * (i >> 1) + (i % 2 === 0 ? 1 : 4)] ?? NaN);
         };
-        for (const [fineness, points, lane] of [[0.1, 121, "quickly"], [0.4, 601, "finely"]] as const) {
+        for (const [fineness, points, lane] of [[SKETCH, 121, "quickly"], [0.4, 601, "finely"]] as const) {
           const [a, b] = await both(fineness, points, lane);
           if (lane === "finely" && !alive()) return;
           show(state, luminance(a), luminance(b), a?.f64["theta_deg"] ?? new Float64Array());
