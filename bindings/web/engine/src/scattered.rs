@@ -49,6 +49,8 @@ const MOST_SIZES: usize = 200;
 const LARGEST: f64 = 1e5;
 /// Angles per period of the fastest beat, which goes as 2x.
 const PER_BEAT: f64 = 2.5;
+/// Angles per radius of the sun's disc that make a smooth curve.
+const PER_RADIUS: f64 = 20.0;
 /// Relative error of the amplitudes of a profile.
 pub(crate) const PROFILE_ERROR: f64 = 1e-5;
 
@@ -176,7 +178,10 @@ impl Question {
         // rays are interpolated between waves and are slow per angle: beats of one order alone
         let beats = if self.drop.is_round() { 2.0 } else { 0.8 };
         let needed = (to - from).to_radians() * beats * x * PER_BEAT / TAU;
-        grid([from, to], (needed as usize).clamp(self.points, MOST_SAMPLES.min(6 * self.points)))
+        // more than the disc asks for would cost much close to the axis, where each is weighed along an arc
+        let smooth = (to - from).to_radians() / SUN_ANGULAR_RADIUS * PER_RADIUS;
+        let least = self.points.min(smooth as usize).max(2);
+        grid([from, to], (needed as usize).clamp(least, MOST_SAMPLES.min(6 * self.points)))
     }
 
     /// One size.

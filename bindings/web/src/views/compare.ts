@@ -12,6 +12,8 @@ import type { Page, View } from "./view";
 
 const COARSE = 241;
 const FINE = 1201;
+/** Scattering angles at which colours are compared. */
+const LIMITS = { from: 90, to: 170 };
 /** Degrees over which the error of rays is averaged: their single ripples mean nothing. */
 const BAND = 1;
 
@@ -77,8 +79,11 @@ export function compareView(page: Page): View {
         throw new Error("rays are compared with the exact series of a sphere: choose the sphere as the drop");
       }
       if (state.light === "daylight" && state.other === "drop") {
+        if (state.to_deg <= LIMITS.from || state.from_deg >= LIMITS.to - 0.5) {
+          throw new Error(`in daylight drops are compared from ${LIMITS.from} to ${LIMITS.to}° from the sun: choose angles there, or one wavelength`);
+        }
         // near the axis colours take longest, and this is about bows
-        const stretch = { from: Math.max(state.from_deg, 90), to: Math.min(Math.max(state.to_deg, 91), 170), points: COARSE };
+        const stretch = { from: Math.max(state.from_deg, LIMITS.from), to: Math.min(state.to_deg, LIMITS.to), points: COARSE };
         const both = (fineness: number, points: number, lane: "quickly" | "finely"): Promise<Reply[]> =>
           page.engine[lane]([{}, { shape: state.other_shape, radius_um: state.other_um }].map((own) => {
             const sketch = isRound(String(own.shape ?? state.shape)) || lane === "finely" ? {} : { wavelength_nm: 560, sun_disc: false };
@@ -92,7 +97,7 @@ export function compareView(page: Page): View {
           const [a, b] = await both(fineness, points, lane);
           if (lane === "finely" && !alive()) return;
           show(state, luminance(a), luminance(b), a?.f64["theta_deg"] ?? new Float64Array());
-          page.status(lane === "quickly" ? "coarse: luminance in daylight, few wavelengths" : "luminance in daylight, 90 to 170° from the sun", lane === "quickly");
+          page.status(lane === "quickly" ? "coarse: luminance in daylight, few wavelengths" : `luminance in daylight, ${LIMITS.from} to ${LIMITS.to}° from the sun`, lane === "quickly");
           if (!alive()) return;
         }
         return;
