@@ -15,7 +15,7 @@ const NEAR_AXIS = 165;
 const LARGEST_GLORY_UM = 60;
 /** Azimuths of a whole sky of drops that are not round; each takes seconds. */
 const AZIMUTHS = [180, 150, 120, 90, 60, 30, 0];
-const COARSE_WIDTH = 280;
+const COARSE_WIDTH = 240;
 const FINE_WIDTH = 1200;
 const RATIO = 0.6;
 
