@@ -34,8 +34,8 @@
 //! `medium`, `shape`, `color`, `size_distribution`, [`cancel`] · `math`, `pending_file`, [`fault`].
 //!
 //! Features, all on by default: `hdf5` (tables as files, exports, batches; brings C code), `cli` (the program),
-//! `pictures` (previews and diagrams as PNG and SVG, report pages). Without them the physics builds for wheels
-//! and for `wasm32-unknown-unknown`.
+//! `pictures` (previews and diagrams as PNG and SVG, report pages), `tmatrix` (T-matrices, refused without it). Without
+//! them the physics builds for `wasm32-unknown-unknown`.
 
 pub mod cancel;
 pub mod fault;

@@ -27,6 +27,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+/// Whether there are files at all: browsers have none. Whoever reads one asks first, so that what would make sense
+/// of it is left out where nothing can be read.
+pub(crate) const FILES: bool = !cfg!(all(target_family = "wasm", target_os = "unknown"));
+
 static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 static COUNTER: AtomicU32 = AtomicU32::new(0);
 

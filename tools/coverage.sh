@@ -17,7 +17,7 @@ printf '#!/bin/sh\nexec "$@" -C instrument-coverage -C opt-level=1\n' > "$wrappe
 chmod +x "$wrapper"
 export RUSTC_WORKSPACE_WRAPPER=$wrapper LLVM_PROFILE_FILE=$raw/%m-%p.profraw
 
-options=(--release --no-default-features)
+options=(--release --no-default-features --features tmatrix)
 cargo test "${options[@]}" --lib -- --quiet
 cargo test "${options[@]}" --test physics -- --quiet "$@"
 binaries=$(cargo test "${options[@]}" --lib --test physics --no-run --message-format=json |

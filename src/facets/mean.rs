@@ -7,8 +7,8 @@ use super::far_field::FarField;
 use super::lobes::Lobes;
 use super::orientation::{Stand, offset, point};
 use crate::cancel;
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Where a mean is taken.

@@ -10,12 +10,12 @@ use super::orientation::{offset, point};
 use super::path::{Facets, Light, Limits, Sent};
 use super::table::{Band, Errors, TableJob, budget};
 use crate::cancel;
+use crate::math::parallel::*;
 use crate::math::vec3::Vec3;
 use crate::optics::{AmplitudeMatrix, mirror_sign};
 use crate::phase_table::{Axes, MethodPart, Slab};
 use glam::{DMat3, DVec3};
 use ndarray::Array3;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Rays on each orientation in a mean, and on one that stands still.

@@ -1,6 +1,6 @@
 //! The columns of a diagram in parallel, the largest drops first, since they take longest.
 
-use rayon::prelude::*;
+use crate::math::parallel::*;
 
 /// What `column` makes of each radius, in the order of the radii.
 ///

@@ -45,6 +45,7 @@ pub use sampling::Beats;
 use crate::cancel;
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
 use crate::fault::{Blame, Fault};
+use crate::math::parallel::*;
 use crate::medium::{Medium, MediumError};
 use crate::plan::PlanError;
 use crate::population::SampledSizes;
@@ -58,7 +59,6 @@ use crate::sun_disc::SunFilter;
 use about_axis::{Axis, Samples, Stimuli};
 use largest_first::largest_first;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use sampling::{AXIS_LIMIT, Band, LARGEST_QUANTILE, Sampling, SamplingNeed, TRANSITION, grid};
 use std::f64::consts::{PI, TAU};
 
@@ -192,8 +192,8 @@ where
 
 /// Where the index that stands for the whole visible is taken.
 const MIDDLE: f64 = 550e-9;
-/// The coarsest sampling that still shows bows.
-const LEAST_FINENESS: f64 = 0.1;
+/// The coarsest sampling that still shows the primary bow: thirty to sixty wavelengths.
+const LEAST_FINENESS: f64 = 0.02;
 
 /// One radius.
 fn column<A, E, P, F>(
@@ -350,7 +350,7 @@ fn check(request: &Request, beats: Beats) -> Result<(), LeeError> {
         return invalid("size_spread", request.size_spread.to_string(), "accepted are 0 to 0.5");
     }
     if !(LEAST_FINENESS..=100.0).contains(&request.fineness) {
-        return invalid("fineness", request.fineness.to_string(), "accepted are 0.1 to 100");
+        return invalid("fineness", request.fineness.to_string(), "accepted are 0.02 to 100");
     }
     Ok(())
 }

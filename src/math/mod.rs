@@ -16,6 +16,7 @@ pub(crate) mod fused;
 pub(crate) mod gauss_legendre;
 pub(crate) mod half_turn;
 pub mod jet;
+pub(crate) mod parallel;
 pub(crate) mod phase;
 pub mod scalar;
 mod special;

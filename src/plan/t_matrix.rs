@@ -54,7 +54,9 @@ pub(super) fn takes(
         Ok(false)
     };
     // before the surface is looked at, which takes longer than all else of a plan
-    if let Err(error @ TMatrixError::TooLarge { .. }) = tmatrix::check(shape, size_parameter) {
+    if let Err(error @ (TMatrixError::TooLarge { .. } | TMatrixError::LeftOut)) =
+        tmatrix::check(shape, size_parameter)
+    {
         return skip(error.to_string());
     }
     let expected = match tmatrix::expectation(shape, size_parameter) {

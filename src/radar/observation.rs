@@ -8,9 +8,9 @@ use super::drop_shape::DropShape;
 use super::rain::{Beam, RadarError, Rain};
 use super::sums::RadarQuantities;
 use crate::cancel;
+use crate::math::parallel::*;
 use crate::medium::MediumError;
 use num_complex::Complex64;
-use rayon::prelude::*;
 
 /// What is looked at, and how.
 ///

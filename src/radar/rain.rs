@@ -4,10 +4,10 @@ use super::drop_shape::DropShape;
 use super::spectrum::DropSpectrum;
 use super::sums::{RadarQuantities, RadarSums};
 use crate::fault::{Blame, Fault};
+use crate::math::parallel::*;
 use crate::series::tmatrix::{TMatrix, TMatrixError};
 use crate::shape::ShapeError;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// A radar's beam.

@@ -6,7 +6,7 @@
 //! normal), so its radiance over the sun's irradiance is
 //! `P · μ₀/(μ₀+μ) · (1 − exp(−τ(1/μ₀ + 1/μ)))`. The background is that which is seen beside the bow, through the rain: its
 //! colour comes out as it is stated, and the bow is added as light.
-//! Drops that fill the air all around (`RainShape::Around`) have μ = μ₀ = 1 everywhere.
+//! Drops or crystals that fill the air all around (`RainShape::Around`) have μ = μ₀ = 1 everywhere.
 //! Light scattered more than once is left out.
 
 use super::camera::Camera;
@@ -16,10 +16,10 @@ use super::tristimulus::Tristimulus;
 use crate::color::{
     Illuminant, Observer, SUN_ANGULAR_RADIUS, encode_srgb, fit_gamut, xyz_to_linear_srgb,
 };
+use crate::math::parallel::*;
 use crate::phase_table::{PhaseTable, Quantity};
 use crate::sun_disc::DiscPoints;
 use glam::DVec3;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Where the drops are.
@@ -129,7 +129,8 @@ pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Drawn, 
             "a view in which the tables have directions: none of the scattering angles seen is \
              in a table"
         } else {
-            "a view of the sky: no pixel looks at rain (above the horizon and away from the sun)"
+            "a view of the sky: no pixel looks at rain (above the horizon and away from the sun, or rain.shape = \
+             \"around\")"
         };
         return Err(RenderError::Invalid {
             field: "camera".into(),
@@ -168,6 +169,8 @@ enum Pixel {
     Nothing,
     Ground,
     HorizonLine,
+    /// Its disc.
+    Sun,
     Rain {
         /// XYZ over the sun's irradiance, sr⁻¹; nothing where no table reaches.
         bow: Option<[f64; 3]>,
@@ -189,6 +192,7 @@ impl Pixel {
             Pixel::Nothing => [0.0; 3],
             Pixel::Ground => sky.ground.unwrap_or([0.0; 3]),
             Pixel::HorizonLine => [0.5; 3],
+            Pixel::Sun => [1.0; 3],
             Pixel::Rain { bow, .. } => {
                 let bow = xyz_to_linear_srgb(bow.unwrap_or([0.0; 3]).map(|v| v * exposure));
                 std::array::from_fn(|c| bow[c] + sky.background[c])
@@ -211,6 +215,9 @@ fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -
     }
     let (sun_sine, sun_cosine) = sky.sun_elevation.sin_cos();
     let light = DVec3::new(sun_cosine, 0.0, -sun_sine);
+    if (-view).dot(light) > SUN_ANGULAR_RADIUS.cos() {
+        return Pixel::Sun;
+    }
     let (mu, mu0) = match sky.rain {
         RainShape::Curtain => (view.x, sun_cosine),
         RainShape::Around => (1.0, 1.0),

@@ -2,9 +2,9 @@
 
 use super::directions::DirectionGrid;
 use crate::color::{ColorError, ColorWeights, Illuminant, LimbDarkening, Observer};
+use crate::math::parallel::*;
 use crate::phase_table::{Axes, PhaseTable};
 use crate::sun_disc::smooth_over_sun;
-use rayon::prelude::*;
 
 /// XYZ (in sr⁻¹: 1 would be the illuminant's white) over the directions of a table.
 #[derive(Clone, Debug, PartialEq)]

@@ -14,8 +14,8 @@
 
 use super::debye::Behind;
 use super::stretch::{End, Parts, add_means};
+use crate::math::parallel::*;
 use multiversion::multiversion;
-use rayon::prelude::*;
 
 /// Pairs of partial waves up to this distance keep step long enough to count. Measured: 8 and 16
 /// differ by less than 1e-6 behind order 24, by less than 1e-4 behind order 8.

@@ -8,7 +8,7 @@
 use super::lorenz_mie::Sphere;
 use crate::cancel;
 use crate::math::gauss_legendre;
-use rayon::prelude::*;
+use crate::math::parallel::*;
 
 /// Nodes that are summed together.
 const TOGETHER: usize = 64;

@@ -11,9 +11,9 @@
 
 use super::mean::{cubic, rings};
 use crate::color::{LimbDarkening, SUN_ANGULAR_RADIUS};
+use crate::math::parallel::*;
 use crate::optics::mirror_sign;
 use ndarray::{Array3, ArrayView2, Axis};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;

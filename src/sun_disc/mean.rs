@@ -9,7 +9,7 @@
 
 use crate::color::{LimbDarkening, SUN_ANGULAR_RADIUS};
 use crate::math::gauss_legendre;
-use rayon::prelude::*;
+use crate::math::parallel::*;
 use std::f64::consts::PI;
 
 /// Samples per lobe π/x of the fine curve: the cubic between them is then good to 1e-4.

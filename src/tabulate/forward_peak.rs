@@ -10,9 +10,9 @@ use crate::farfield::direction::Direction;
 use crate::farfield::forward::penumbra_layout::near_axis;
 use crate::farfield::forward::wave::ForwardWave;
 use crate::math::half_turn::shares;
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
 use crate::series::table::{coarse_cells, samples};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// θ cells of a table about the forward direction, and the angles that stand for them.

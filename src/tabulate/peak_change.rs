@@ -1,9 +1,9 @@
 //! What closing a table's sum changes about the forward peak: a deficit of the whole table is given to the peak,
 //! and what is given may be as wrong as what was missed.
 
+use crate::math::parallel::*;
 use crate::phase_table::{Axes, ERROR_BANDS, error_theta};
 use ndarray::{ArrayView2, Axis};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Relative changes of the intensity, root mean square.

@@ -7,7 +7,7 @@
 
 use crate::farfield::FarField;
 use crate::math::gauss_legendre;
-use rayon::prelude::*;
+use crate::math::parallel::*;
 use std::f64::consts::{PI, TAU};
 
 /// Nodes in cos θ per size parameter and beside: the pattern of a size parameter x is a polynomial of

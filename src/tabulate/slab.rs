@@ -5,10 +5,10 @@ use super::peak_change::PeakChange;
 use crate::farfield::forward::wave::ForwardWave;
 use crate::farfield::patches::gaussian_filter;
 use crate::farfield::{Column, FarField};
+use crate::math::parallel::*;
 use crate::optics::{AmplitudeMatrix, mirror_sign};
 use crate::phase_table::{Axes, ForwardPeak, Quantity};
 use ndarray::{Array2, Array3, ArrayViewMut3, Axis, s};
-use rayon::prelude::*;
 
 /// Settings of one slab.
 pub struct Tabulator<'a> {
@@ -96,7 +96,7 @@ impl Tabulator<'_> {
         let peak = self.peak().map(|wave| Peak { rows: PeakRows::new(&wave, &cells), wave });
         let angles = [&cells.theta, &self.theta[cells.len()..]].concat();
         let (fewest, most) = COLUMNS_AT_ONCE;
-        let share = computed.len().div_ceil(3 * rayon::current_num_threads());
+        let share = computed.len().div_ceil(3 * current_num_threads());
         let lines: Vec<Line> = computed
             .par_chunks(share.clamp(fewest, most))
             .flat_map_iter(|phis| {

@@ -1,7 +1,7 @@
 //! Energy by fate: what became of the light on the silhouette. It must add up.
 
 use super::{Tracer, Wavefront};
-use rayon::prelude::*;
+use crate::math::parallel::*;
 
 /// Powers as fractions of what fell on the silhouette, for unpolarised light.
 #[derive(Clone, Debug, Default, PartialEq)]

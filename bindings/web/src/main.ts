@@ -58,8 +58,10 @@ async function start(): Promise<void> {
   const controls = new Map<Field, Control>();
   const tell = (found: Messages): void => {
     for (const [field, each] of controls) each.tell(found[field]);
-    trouble.textContent = found[""] ?? "";
-    trouble.hidden = found[""] === undefined;
+    // what has no control, as the view, is told above all
+    const general = (Object.keys(found) as (Field | "")[]).filter((field) => field === "" || !controls.has(field)).map((field) => `${field === "" ? "" : `${field}: `}${found[field] ?? ""}`);
+    trouble.textContent = general.join("; ");
+    trouble.hidden = general.length === 0;
   };
 
   const page: Page = {
@@ -67,6 +69,7 @@ async function start(): Promise<void> {
     state: () => state,
     change(changes) {
       state = { ...state, ...changes };
+      messages = {};
       changed();
     },
     status(text, approximate) {
@@ -76,7 +79,7 @@ async function start(): Promise<void> {
     },
     refuse(error) {
       if (error instanceof Dropped) return;
-      const { field, message } = error instanceof Refused ? error.refusal : { field: "", message: String(error) };
+      const { field, message } = error instanceof Refused ? error.refusal : { field: "", message: error instanceof Error ? error.message : String(error) };
       tell({ [controls.has(field as Field) ? field : ""]: message });
       status.textContent = "";
     },
@@ -166,7 +169,8 @@ async function start(): Promise<void> {
       });
   };
 
-  const follow = onFrame(() => run({ ...contradictions(state) }));
+  // what is wrong with a link is told until something changes, also where a frame comes in between
+  const follow = onFrame(() => run({ ...messages, ...contradictions(state) }));
   let writing: number | undefined;
   function changed(): void {
     layOut();

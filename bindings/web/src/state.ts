@@ -1,5 +1,7 @@
 /** All that the page shows hangs on this: one state, in the address behind `#`. */
 
+import { sizeText } from "./parts/units";
+
 /** A number that a control sets. */
 export interface NumberSpec {
   kind: "number";
@@ -68,7 +70,7 @@ export const SHAPES = [
 export const SPECS = {
   view: choice("View", [["rays", "Rays"], ["scattered", "Scattered light"], ["lee", "Lee diagram"], ["sky", "Sky"], ["compare", "Compare"], ["photo", "Photograph"]], "rays"),
   shape: choice("Drop", SHAPES, "sphere"),
-  radius_um: number("Size", "µm", 0.1, 4500, 0.001, 300, { log: true, hint: "of the sphere of equal volume" }),
+  radius_um: number("Radius", "µm", 0.1, 4500, 0.001, 300, { log: true, hint: "of the sphere of equal volume" }),
   axis_ratio: number("Axis ratio", "", 0.5, 1.5, 0.005, 0.9, { hint: "vertical over horizontal diameter" }),
   medium: text("Material", "water", "a name, an index, or n+ki as 1.5+0.001i"),
   temperature_c: number("Temperature", "°C", 0, 90, 1, 20, { hint: "of water" }),
@@ -90,8 +92,8 @@ export const SPECS = {
   impact: number("Impact", "of the radius", -0.999, 0.999, 0.001, 0.86),
   fan: tick("Fan of rays", true),
   caustic: tick("Caustic", true),
-  from_deg: number("From", "°", 0, 179, 0.1, 90),
-  to_deg: number("To", "°", 1, 180, 0.1, 180),
+  from_deg: number("From", "°", 0, 179, 0.1, 90, { hint: "from the sun" }),
+  to_deg: number("To", "°", 1, 180, 0.1, 180, { hint: "from the sun" }),
   curve: choice("Curve", [["intensity", "intensity"], ["polarisation", "degree of polarisation"]], "intensity"),
   log: tick("Logarithmic", true),
   whole: tick("Whole", true),
@@ -135,14 +137,25 @@ export function initialState(): State {
 const LONGEST_TEXT = 60;
 const LONGEST_ADDRESS = 4000;
 
-/** A value as it is typed or stands in an address; or what is wrong with it. */
-export function read(field: Field, typed: string): { value: State[Field] } | { message: string } {
+/** How a number is shown: in which unit, and how many of it one of the state's is. */
+export interface Shown {
+  factor: number;
+  unit: string;
+}
+
+/** A value as it is typed or stands in an address; or what is wrong with it. `shown` says in what a number was typed, and
+ * its message is in that. */
+export function read(field: Field, typed: string, shown?: Shown): { value: State[Field] } | { message: string } {
   const spec: Spec = SPECS[field];
   switch (spec.kind) {
     case "number": {
-      const value = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i.test(typed.trim()) ? Number(typed.trim().replace(",", ".")) : NaN;
-      if (!Number.isFinite(value)) return { message: `“${shorten(typed)}” is no number: accepted are ${spec.from} to ${spec.to} ${spec.unit}`.trim() };
-      if (value < spec.from || value > spec.to) return { message: `${value}: accepted are ${spec.from} to ${spec.to} ${spec.unit}`.trim() };
+      const { factor, unit } = shown ?? { factor: 1, unit: spec.unit };
+      const told = /^[+-]?(\d+([.,]\d*)?|[.,]\d+)(e[+-]?\d+)?$/i.test(typed.trim()) ? Number(typed.trim().replace(",", ".")) : NaN;
+      const [from, to] = [spec.from, spec.to].map((end) => Number((end * factor).toPrecision(12)));
+      const accepted = `accepted are ${from} to ${to} ${unit}`.trim();
+      if (!Number.isFinite(told)) return { message: `“${shorten(typed)}” is no number: ${accepted}` };
+      const value = Number((told / factor).toPrecision(12));
+      if (value < spec.from || value > spec.to) return { message: `${told}: ${accepted}` };
       return { value };
     }
     case "choice": {
@@ -211,7 +224,7 @@ function decoded(part: string): string {
 export function contradictions(state: State): Messages {
   const messages: Messages = {};
   if (state.to_deg < state.from_deg + 0.5) messages.to_deg = `${state.to_deg}: must be at least 0.5° above ${state.from_deg}`;
-  if (state.lee_to_um < 1.2 * state.lee_from_um) messages.lee_to_um = `${state.lee_to_um}: must be at least 1.2 times ${state.lee_from_um}`;
+  if (state.lee_to_um < 1.2 * state.lee_from_um) messages.lee_to_um = `${sizeText(state, state.lee_to_um)}: must be at least 1.2 times ${sizeText(state, state.lee_from_um)}`;
   return messages;
 }
 

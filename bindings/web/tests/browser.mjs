@@ -45,7 +45,7 @@ export async function go(page, hash) {
 export const shown = (page, view) => page.evaluate((name) => {
   const panel = document.querySelector(`#panel-${name}`);
   const canvases = [...panel.querySelectorAll("canvas")].filter((canvas) => canvas.offsetParent !== null).map((canvas) => canvas.width * canvas.height > 0 ? canvas.toDataURL() : "");
-  const drawing = panel.querySelector(".drawing")?.innerHTML ?? "";
+  const drawing = (panel.querySelector(".drawing")?.innerHTML ?? "") + (panel.querySelector(".photo-frame svg")?.outerHTML ?? "");
   const words = [...panel.querySelectorAll(".legend, .u-legend, .lee-x, .lee-y")].map((element) => element.textContent).join("|");
   const cursor = panel.querySelector(".cursor")?.style.left ?? "";
   return canvases.join("|") + drawing + words + cursor;

@@ -131,6 +131,30 @@ inBrowser("the impact is dragged, the Lee diagram picks a radius", async () => {
   await close();
 });
 
+inBrowser("a fast sequence of changes ends in the picture of the last", async () => {
+  const { page, wrong, close } = await opened(browser);
+  const still = "light=one&lee_from_um=10&lee_to_um=14&from_deg=130&to_deg=150";
+  for (const view of VIEWS) {
+    await picture(page, view, `${still}&radius_um=12`);
+    await page.evaluate(async () => {
+      const slider = document.querySelector("[data-field=radius_um] input[type=range]");
+      for (let i = 0; i < 60; i += 1) {
+        slider.value = String(300 + 7 * i);
+        slider.dispatchEvent(new Event("input"));
+        await new Promise((resolve) => setTimeout(resolve, i % 5));
+      }
+    });
+    await type(page, "radius_um", "33");
+    await page.waitForTimeout(300);
+    await settled(page);
+    const ended = await shown(page, view);
+    await picture(page, view, `${still}&radius_um=12`);
+    assert.equal(ended, await picture(page, view, `${still}&radius_um=33`), view);
+  }
+  assert.deepEqual(wrong, []);
+  await close();
+});
+
 inBrowser("bad input by hand and by link is told at its control, and nothing breaks", async () => {
   const { page, wrong, close } = await opened(browser, "view=scattered&light=one&radius_um=50");
   await settled(page);
@@ -201,6 +225,24 @@ inBrowser("hostile pictures are refused", async () => {
     await page.evaluate(() => { document.querySelector("#panel-photo .legend").textContent = ""; });
     assert.ok(await page.isHidden(".photo-frame"), name);
   }
+  assert.deepEqual(wrong, []);
+  await close();
+});
+
+inBrowser("controls of the photograph move it", async () => {
+  const { page, wrong, close } = await opened(browser, "view=photo");
+  const rows = Buffer.concat(Array.from({ length: 200 }, () => Buffer.from([0, ...Array(3 * 320).fill(40)])));
+  const start = "photo_fov_deg=60&photo_x=0.5&photo_y=1.8&radius_um=40&sun_elevation_deg=20";
+  await go(page, `view=photo&${start}`);
+  await page.setInputFiles("input[type=file]", { name: "grey.png", mimeType: "image/png", buffer: png(320, 200, rows) });
+  await page.waitForSelector(".photo-frame:not([hidden])");
+  await settled(page);
+  const before = await picture(page, "photo", start);
+  for (const change of ["photo_fov_deg=70", "photo_x=0.4", "photo_y=1.6", "photo_tilt_deg=10", "photo_stops=1", "photo_sector_deg=70",
+    "radius_um=90", "spread=0.2", "medium=1.36", "temperature_c=80", "sun_elevation_deg=30", "polarisation=parallel", "sun_disc=0"]) {
+    assert.notEqual(await picture(page, "photo", `${start}&${change}`), before, change);
+  }
+  assert.equal(await picture(page, "photo", start), before);
   assert.deepEqual(wrong, []);
   await close();
 });

@@ -6,9 +6,9 @@ use crate::farfield::Direction;
 use crate::farfield::patches::collecting_sphere::CollectingSphere;
 use crate::farfield::patches::interference::{Interference, PathInterpolation};
 use crate::farfield::patches::{gaussian_filter, sheets};
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::{Tracer, Wavefront};
-use rayon::prelude::*;
 
 /// Grids with more rays across than this are held one order at a time, to bound memory.
 const LARGE: usize = 1500;

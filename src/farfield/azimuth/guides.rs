@@ -6,8 +6,8 @@
 use super::places::{Azimuths, axis_gaps, scanned_rays, steps};
 use crate::farfield::assignment::{Thresholds, caustic_disorder};
 use crate::farfield::deflection::guide::{GuideIndices, OrderGuide};
+use crate::math::parallel::*;
 use crate::shape::Shape;
-use rayon::prelude::*;
 
 /// Guides by order.
 #[derive(Clone, Debug)]

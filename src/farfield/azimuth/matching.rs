@@ -10,8 +10,8 @@ use crate::farfield::deflection::scattering_plane::{Node, ScatteringPlane, axial
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::impact_integral::near_critical;
 use crate::farfield::impact_integral::rays::Rays;
+use crate::math::parallel::*;
 use crate::trace::Tracer;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Largest argument of the Airy functions on the lit side: there the two rays are well apart.

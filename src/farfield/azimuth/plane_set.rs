@@ -18,9 +18,9 @@ use crate::farfield::forward::penumbra::Penumbra;
 use crate::farfield::impact_integral::glory::Glory;
 use crate::farfield::settings::FarFieldSettings;
 use crate::farfield::wave_field::WaveField;
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// All planes of one wavelength.

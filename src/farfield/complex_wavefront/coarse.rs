@@ -9,10 +9,10 @@ use super::channels::{
     CHANNELS, Channels, DIRECTION, FIELDS, PATH, Place, REFERENCE, by_launch, channels, steps,
     width,
 };
+use crate::math::parallel::*;
 use crate::math::vec3::Vec3;
 use crate::shape::Silhouette;
 use crate::trace::{Exit, Tracer};
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Rings and spokes.

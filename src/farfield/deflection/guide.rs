@@ -9,9 +9,9 @@
 
 use super::scattering_plane::{ScannedRay, ScatteringPlane, axial_ray};
 use crate::math::chebyshev;
+use crate::math::parallel::*;
 use crate::shape::Shape;
 use crate::trace::Tracer;
-use rayon::prelude::*;
 
 /// Distance of the index from where rays cease to be analytic in it: that of vacuum, for a light medium.
 const REACH: f64 = 0.3;

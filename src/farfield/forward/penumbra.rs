@@ -16,10 +16,10 @@ use crate::farfield::deflection::scattering_plane::ScatteringPlane;
 use crate::farfield::direction::Direction;
 use crate::math::gauss_legendre;
 use crate::math::half_turn::shares;
+use crate::math::parallel::*;
 use crate::optics::{AmplitudeMatrix, Grazing, fresnel};
 use crate::trace::Tracer;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 /// A point of the outline in the integral near the axis.

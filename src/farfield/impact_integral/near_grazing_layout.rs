@@ -5,8 +5,8 @@ use super::rays::{RAYS, Rays};
 use crate::farfield::assignment::near_grazing_taper::{airy_angle, deviation_slope};
 use crate::farfield::branch::window::Window;
 use crate::farfield::deflection::curve::DeflectionCurve;
+use crate::math::parallel::*;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 

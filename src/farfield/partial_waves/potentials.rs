@@ -2,10 +2,10 @@
 
 use super::central_ray::central_ray;
 use super::radial_line::{RadialLine, Ring};
+use crate::math::parallel::*;
 use crate::math::vec3::Vec3;
 use crate::trace::Tracer;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 /// Azimuths of launch points to look at how far planes are tilted.

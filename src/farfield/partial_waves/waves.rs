@@ -17,11 +17,11 @@ use super::potentials::{Potentials, potentials};
 use crate::cancel;
 use crate::farfield::assignment::Thresholds;
 use crate::farfield::wave_field::WaveField;
+use crate::math::parallel::*;
 use crate::math::spherical_harmonics::legendre;
 use crate::optics::AmplitudeMatrix;
 use crate::trace::Tracer;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Samples of the scattering angle per period of the highest partial wave.

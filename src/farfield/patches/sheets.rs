@@ -4,9 +4,9 @@
 //! grid rays only smooth quantities are interpolated: the path with its exact gradient
 //! (`dW = -x_ref·ds`), the field transfer and the signed spread `s·(∂ᵤs × ∂ᵥs)`, never `1/√spread`.
 
+use crate::math::parallel::*;
 use crate::math::vec3::{Field, Vec3};
 use crate::trace::{Exit, Tracer, Wavefront};
-use rayon::prelude::*;
 
 /// One traced ray as a corner of patches.
 #[derive(Clone, Copy, Debug)]

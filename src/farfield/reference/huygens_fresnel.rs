@@ -14,12 +14,12 @@
 //! does (errors of relative order 1/x, more near grazing rays).
 
 use crate::farfield::direction::Direction;
+use crate::math::parallel::*;
 use crate::math::phase::sin_cos_turns;
 use crate::math::vec3::{Field, Vec3};
 use crate::optics::AmplitudeMatrix;
 use crate::trace::{Exit, Tracer, Wavefront, transfer};
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 
 /// How the sum is made.

@@ -6,8 +6,8 @@
 //! one sum serves both ways. It runs over the angles in SIMD lanes; cos kθ is turned on by a
 //! rotation and set anew now and then, so that rounding does not add up.
 
+use crate::math::parallel::*;
 use multiversion::multiversion;
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Angles carried together, and orders after which cos kθ is set anew.

@@ -17,6 +17,7 @@ use crate::medium::solution::{Dye, Solution};
 use crate::medium::spec::{MediumSpec, NamedSpec};
 use crate::medium::water::daimon::Daimon;
 use crate::medium::water::microwave::MicrowaveWater;
+use crate::pending_file::FILES;
 use num_complex::Complex64;
 use std::path::Path;
 use std::sync::Arc;
@@ -167,6 +168,9 @@ fn solution(
 
 /// A material from a YAML file, a Zemax catalogue or a text table, which must have n.
 fn read_material(path: &Path, glass: Option<&str>) -> Result<Material, MediumError> {
+    if !FILES {
+        return Err(file_error(path, None, "there are no files in a browser"));
+    }
     if has_ending(path, &["agf"]) {
         return agf::read(path, glass);
     }

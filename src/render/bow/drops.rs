@@ -9,7 +9,8 @@ use crate::phase_table::{PhaseTable, Quantity};
 use crate::plan::{Engine, Plan, Symmetry};
 use crate::population::bulk;
 use crate::scene::{
-    Choice, Grid, Method, ParticleKeys, Scene, SceneFile, SceneText, ShapeName, SizeKeys, SunDisc,
+    Choice, Diffraction, Grid, Interference, Method, ParticleKeys, Scene, SceneFile, SceneText,
+    ShapeName, SizeKeys, SunDisc,
 };
 use crate::simulate;
 use serde::Deserialize;
@@ -53,6 +54,8 @@ const WAVELENGTHS_OF_MANY: u64 = 17;
 /// Scattering angles, degrees: where raindrops have their bows, and of all else, nearer to whose light nobody looks.
 const BOWS: (f64, f64) = (100.0, 180.0);
 const ALL: (f64, f64) = (2.0, 180.0);
+/// Of crystals: from where the sun's own light ends, and the step.
+const HALOES: (f64, f64, f64) = (0.5, 180.0, 0.25);
 /// Steps of a degree: of one drop's fringes, of means over sizes.
 const STEPS_OF_ONE: f64 = 20.0;
 const STEPS_OF_MANY: f64 = 10.0;
@@ -161,7 +164,13 @@ impl DropKeys {
         let shapes = file.particles.iter().map(|kind| kind.particle.shape);
         let shapes: Vec<_> =
             shapes.chain(file.particles.is_empty().then_some(file.particle.shape)).collect();
-        let bows = shapes.iter().all(|shape| *shape == Some(Choice(ShapeName::Raindrop)));
+        let all = |is: &dyn Fn(ShapeName) -> bool| {
+            shapes.iter().all(|shape| shape.is_some_and(|shape| is(shape.0)))
+        };
+        if all(&ShapeName::is_crystal) {
+            return self.halo(file, &folder);
+        }
+        let bows = all(&|shape| shape == ShapeName::Raindrop);
         let (from, to) = if bows { BOWS } else { ALL };
         let steps = (to - from) * if mean { STEPS_OF_MANY } else { STEPS_OF_ONE };
         file.table.theta_deg = Some(Grid::Range { from, to, count: steps as u64 + 1 });
@@ -186,6 +195,24 @@ impl DropKeys {
             }
         }
         Ok(scene)
+    }
+}
+
+impl DropKeys {
+    /// The scene of crystals: rays alone, by cells that the sun's disc covers.
+    fn halo(&self, mut file: SceneFile, folder: &Path) -> Result<Scene, BowError> {
+        let (from, to) = VISIBLE;
+        let count = self.wavelengths.unwrap_or(WAVELENGTHS_OF_MANY);
+        file.light.wavelengths_nm = Some(Grid::Range { from, to, count });
+        let (from, to, step) = HALOES;
+        let count = ((to - from) / step).round() as u64 + 1;
+        file.table.theta_deg = Some(Grid::Range { from, to, count });
+        file.table.azimuth_deg = Some(Grid::Range { from: 0.0, to: 360.0, count: 721 });
+        file.model.interference = Some(Interference::Powers);
+        file.model.diffraction = Some(Choice(Diffraction::None));
+        file.model.tolerance = self.tolerance;
+        file.model.allow_unmet_tolerance = Some(true);
+        Ok(file.validate_in(folder)?)
     }
 }
 
@@ -335,6 +362,19 @@ mod tests {
         let sizes = spread.size_distribution.unwrap();
         assert!((sizes.bounds().1 / 0.2e-3 - (0.25f64).exp()).abs() < 1e-12);
         assert!(scene("").unwrap().particle.radius() == 0.5e-3);
+    }
+
+    /// Crystals make haloes: by rays alone, whose cells are narrower than the sun.
+    #[test]
+    fn crystals_are_rays() {
+        let plates = scene(
+            "shape = 'hexagonal-column'\naxis_ratio = 0.2\nradius_um = 60\nmedium = 'ice'\n\
+             orientation = 'upright'\ncanting = { deviation_deg = 1 }",
+        )
+        .unwrap();
+        assert!(plates.is_of_rays_alone());
+        let step = (plates.theta[1] - plates.theta[0]).to_degrees();
+        assert!((step - 0.25).abs() < 1e-9 && plates.wavelengths.len() == 17);
     }
 
     #[test]

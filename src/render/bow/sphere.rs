@@ -3,13 +3,13 @@
 use super::error::BowError;
 use crate::lee::Beats;
 use crate::lee::sampling::{Sampling, SamplingNeed};
+use crate::math::parallel::*;
 use crate::medium::Medium;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{Axes, PhaseTable, Quantity, Slab, TableHeader};
 use crate::series::lorenz_mie::Sphere;
 use ndarray::Array3;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Of the wavelengths of a Lee diagram, which shows a single size at single angles, every third, and no more

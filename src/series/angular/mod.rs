@@ -29,9 +29,9 @@ mod kernel;
 pub use kernel::Waves;
 
 use crate::cancel;
+use crate::math::parallel::*;
 use kernel::{Block, LANES, Sides, advance, fill_records};
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Orders per chunk: 256 records of 64 bytes are 16 KiB.
@@ -127,7 +127,7 @@ pub fn amplitudes_parallel(
     set: &AngleSet,
 ) -> Vec<(Complex64, Complex64)> {
     let mut blocks: Vec<Block<1>> = set.t.chunks_exact(LANES).map(Block::new).collect();
-    let share = blocks.len().div_ceil(4 * rayon::current_num_threads()).max(1);
+    let share = blocks.len().div_ceil(4 * current_num_threads()).max(1);
     blocks.par_chunks_mut(share).for_each(|part| run(part, &[(a, b)], set.sides));
     collect(&blocks, 0, set)
 }

@@ -6,12 +6,12 @@
 //! of spheres does not suffice, the mean is refused, or given with the error it has where that is accepted.
 
 use super::Layered;
+use crate::math::parallel::*;
 use crate::medium::Medium;
 use crate::series::angular::AngleSet;
 use crate::series::mean::{Mean, MeanError};
 use crate::series::{SeriesError, elements};
 use crate::size_distribution::SizeDistribution;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Spheres of a medium that varies along the radius.

@@ -10,9 +10,9 @@ use super::matching::{self, Coefficients, Surface};
 use super::nodes;
 use super::radial_index::RadialIndex;
 use super::steps::{Complex, Fields, LANES, Lanes, Real, Step, advance_complex, advance_real};
+use crate::math::parallel::*;
 use crate::series::{SeriesError, checked_term_count, term_count};
 use num_complex::Complex64;
-use rayon::prelude::*;
 
 /// e-folds between the start of a wave and its turning point.
 const DEPTH: f64 = 24.0;

@@ -11,13 +11,13 @@
 //! with, which takes every second sphere and half as many orders.
 
 use crate::math::cosine_series::{self, CosineSeries};
+use crate::math::parallel::*;
 use crate::series::angular::{self, AngleSet};
 use crate::series::behind::{Products, Waves};
 use crate::series::debye::{Cut, DebyeSeries};
 use crate::series::lorenz_mie::{Sphere, sums};
 use crate::series::{SeriesError, checked_term_count};
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 

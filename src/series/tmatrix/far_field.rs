@@ -11,9 +11,9 @@ use super::kernel::waves::{Angular, gamma};
 use super::matrix::TMatrix;
 use crate::cancel;
 use crate::math::gauss_legendre;
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Coefficients of one order m and both polarisations of the light (along x, along y), by n.
@@ -224,15 +224,13 @@ impl Scattered {
 
     /// `∫ S11 dΩ` and `∫ cos θ S11 dΩ`: exact by Gauss quadrature of polynomials.
     fn power_and_momentum(&self) -> (f64, f64) {
-        gauss_legendre::nodes(self.top + 2)
-            .into_par_iter()
-            .map(|(cos, weight)| {
-                let ring = self.rings(cos.acos());
-                let parts = ring.iter().flatten().flatten();
-                let power = 0.5 * TAU * weight * parts.map(|c| c.norm_sqr()).sum::<f64>();
-                (power, power * cos)
-            })
-            .reduce(|| (0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
+        let rings = gauss_legendre::nodes(self.top + 2).into_par_iter().map(|(cos, weight)| {
+            let ring = self.rings(cos.acos());
+            let parts = ring.iter().flatten().flatten();
+            let power = 0.5 * TAU * weight * parts.map(|c| c.norm_sqr()).sum::<f64>();
+            (power, power * cos)
+        });
+        reduced(rings, || (0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1))
     }
 }
 

@@ -13,8 +13,8 @@ use super::kernel::error::NoMean;
 use super::kernel::rotation::wigner;
 use super::matrix::TMatrix;
 use crate::math::gauss_legendre;
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
-use rayon::prelude::*;
 
 /// The mean over all orientations of a body.
 ///
@@ -138,24 +138,19 @@ fn elements(t: &TMatrix, angles: &[(f64, f64)], nodes: usize) -> Vec<Elements> {
     let to_axis = gauss_legendre::nodes(nodes);
     // a body that is its own mirror image looks the same from both ends
     let half = to_axis.into_iter().filter(|(sin, _)| !mirror || *sin >= 0.0);
-    half.collect::<Vec<_>>()
-        .into_par_iter()
-        .map(|(sin, weight)| {
-            let scattered = Scattered::new(t, sin.asin());
-            let weight = if mirror && sin > 0.0 { weight } else { 0.5 * weight };
-            let of =
-                |&(cos, _): &(f64, f64)| scattered.azimuth_mean(cos.acos()).map(|e| e * weight);
-            angles.iter().map(of).collect()
-        })
-        .reduce(
-            || vec![[0.0; 6]; angles.len()],
-            |mut sum: Vec<Elements>, other| {
-                for (to, from) in sum.iter_mut().flatten().zip(other.iter().flatten()) {
-                    *to += from;
-                }
-                sum
-            },
-        )
+    let each = half.collect::<Vec<_>>().into_par_iter().map(|(sin, weight)| {
+        let scattered = Scattered::new(t, sin.asin());
+        let weight = if mirror && sin > 0.0 { weight } else { 0.5 * weight };
+        let of = |&(cos, _): &(f64, f64)| scattered.azimuth_mean(cos.acos()).map(|e| e * weight);
+        angles.iter().map(of).collect::<Vec<Elements>>()
+    });
+    let both = |mut sum: Vec<Elements>, other: Vec<Elements>| {
+        for (to, from) in sum.iter_mut().flatten().zip(other.iter().flatten()) {
+            *to += from;
+        }
+        sum
+    };
+    reduced(each, || vec![[0.0; 6]; angles.len()], both)
 }
 
 impl Scattered {

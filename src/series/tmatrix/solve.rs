@@ -15,9 +15,9 @@ use super::kernel::waves::{NodeWaves, on_surface};
 use super::kernel::{least_squares, null_field};
 use super::matrix::TMatrix;
 use crate::cancel;
+use crate::math::parallel::*;
 use crate::shape::Shape;
 use num_complex::Complex64;
-use rayon::prelude::*;
 
 impl TMatrix {
     /// For a body with a size parameter `2πa/λ` (a: sphere of equal volume, λ: in the medium around)
@@ -91,7 +91,11 @@ pub fn check(shape: &Shape, size_parameter: f64) -> Result<(), TMatrixError> {
     Ok(())
 }
 
+/// Where there are none this is all that is ever asked: nothing of what solves them is linked.
 fn check_size(size_parameter: f64) -> Result<(), TMatrixError> {
+    if !cfg!(feature = "tmatrix") {
+        return Err(TMatrixError::LeftOut);
+    }
     if size_parameter >= LEAST_SIZE && size_parameter.is_finite() {
         return Ok(());
     }
@@ -261,7 +265,7 @@ impl<'a> Problem<'a> {
     fn all_orders(&self, solver: Solver, top: usize) -> Result<TMatrix, TMatrixError> {
         const NOTHING: f64 = 1e-32;
         let waves = self.waves(top)?;
-        let batch = 4 * rayon::current_num_threads();
+        let batch = 4 * current_num_threads();
         let (mut blocks, mut norm, mut odd) = (Vec::new(), 0.0, 0.0);
         while blocks.len() <= top {
             let orders = blocks.len()..(blocks.len() + batch).min(top + 1);

@@ -4,9 +4,9 @@ use super::far_field::Scattered;
 use super::kernel::range;
 use super::matrix::TMatrix;
 use super::random::RandomOrientation;
+use crate::math::parallel::*;
 use crate::optics::AmplitudeMatrix;
 use crate::phase_table::{ERROR_BANDS, error_theta};
-use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Relative errors of the intensity.

@@ -8,11 +8,11 @@ use super::matrix::TMatrix;
 use super::random::RandomOrientation;
 use super::sections::Sections;
 use super::stated::StatedError;
+use crate::math::parallel::*;
 use crate::optics::{AmplitudeMatrix, mirror_sign};
 use crate::phase_table::{Axes, ForwardPeak, MethodPart, Quantity, Slab};
 use crate::series::table::{coarse_cells, samples};
 use ndarray::{Array2, Array3};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// What a slab is made for.

@@ -4,12 +4,12 @@
 //! change of bows is left. Few azimuths serve, evenly over a half-turn, with the mirror image for the rest.
 
 use crate::math::half_turn::shares;
+use crate::math::parallel::*;
 use crate::optics::mirror_sign;
 use crate::plan::{Plan, Symmetry};
 use crate::scene::{Scene, SunDisc};
 use crate::sun_disc::near_axis;
 use ndarray::{Array3, Axis};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Steps of a half-turn: 5°.

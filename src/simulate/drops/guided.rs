@@ -3,12 +3,12 @@
 use super::one_order::Drop;
 use super::steps::{Part, Steps, index_range, middle_light, sizes_of};
 use crate::farfield::Guides;
+use crate::math::parallel::*;
 use crate::medium::Light;
 use crate::plan::Plan;
 use crate::population::{Radius, radii};
 use crate::scene::Scene;
 use crate::simulate::error::SimulateError;
-use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// A drop by its radius and place among them, and an order.

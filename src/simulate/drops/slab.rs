@@ -7,6 +7,7 @@ use super::one_order::Drop;
 use super::seen::Seen;
 use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
 use crate::farfield::forward::penumbra_layout::near_axis;
+use crate::math::parallel::*;
 use crate::medium::Light;
 use crate::phase_table::{Axes, ERROR_BANDS, ForwardPeak, MethodPart, Slab};
 use crate::plan::Plan;
@@ -17,7 +18,6 @@ use crate::tabulate::peak_change::PeakChange;
 use crate::tabulate::slab::asymmetry;
 use ndarray::{Array2, Array3, Axis, s};
 use num_complex::Complex64;
-use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Radii computed at once: their values are held until they are added.

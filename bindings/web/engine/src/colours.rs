@@ -75,7 +75,7 @@ impl Column {
         let scene = self.drop.scene(550.0)?;
         if self.drop.radius_um > LARGEST_UM && self.drop.is_round() {
             let message = format!(
-                "{}: colours of spheres up to {LARGEST_UM} µm are offered here",
+                "radius {} µm: colours of spheres up to {LARGEST_UM} µm are offered here",
                 self.drop.radius_um
             );
             return Err(Trouble::new("radius_um", message));

@@ -177,9 +177,12 @@ pub fn checked(keys: &Table) -> Result<Scene, Trouble> {
 /// How the library's messages name the scene.
 const NAME: &str = "drop";
 
+/// What the program's messages add for those who have it.
+const OF_PROGRAM: &str = "gonio material --list shows all names";
+
 /// The control of a message such as `drop: particle.radius_um = -1: accepted are …`.
 fn placed(error: &SceneError) -> Trouble {
-    let text = error.to_string();
+    let text = error.to_string().replace(OF_PROGRAM, "the field suggests names");
     let text = text.strip_prefix(NAME).map_or(text.as_str(), |rest| rest.trim_start_matches(": "));
     let end = text.find([' ', ':']).unwrap_or(text.len());
     let (key, rest) = text.split_at(end);

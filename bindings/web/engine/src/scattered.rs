@@ -9,6 +9,7 @@ use gonio::color::SUN_ANGULAR_RADIUS;
 use gonio::optics::{AmplitudeMatrix, rainbow_angle};
 use gonio::plan::Plan;
 use gonio::scene::{Orders, Scene};
+use gonio::series::angular::{AngleSet, amplitudes, amplitudes_together};
 use gonio::series::debye::{DebyeSeries, Term};
 use gonio::series::layered::Layered;
 use gonio::series::lorenz_mie::Sphere;
@@ -48,6 +49,8 @@ const MOST_SIZES: usize = 200;
 const LARGEST: f64 = 1e5;
 /// Angles per period of the fastest beat, which goes as 2x.
 const PER_BEAT: f64 = 2.5;
+/// Angles per radius of the sun's disc that make a smooth curve.
+const PER_RADIUS: f64 = 20.0;
 /// Relative error of the amplitudes of a profile.
 pub(crate) const PROFILE_ERROR: f64 = 1e-5;
 
@@ -175,7 +178,10 @@ impl Question {
         // rays are interpolated between waves and are slow per angle: beats of one order alone
         let beats = if self.drop.is_round() { 2.0 } else { 0.8 };
         let needed = (to - from).to_radians() * beats * x * PER_BEAT / TAU;
-        grid([from, to], (needed as usize).clamp(self.points, MOST_SAMPLES.min(6 * self.points)))
+        // more than the disc asks for would cost much close to the axis, where each is weighed along an arc
+        let smooth = (to - from).to_radians() / SUN_ANGULAR_RADIUS * PER_RADIUS;
+        let least = self.points.min(smooth as usize).max(2);
+        grid([from, to], (needed as usize).clamp(least, MOST_SAMPLES.min(6 * self.points)))
     }
 
     /// One size.
@@ -205,18 +211,21 @@ impl Question {
 
     fn sphere(&self, x: f64, index: Complex64, theta: &[f64]) -> Result<Curves, Trouble> {
         let whole = Sphere::new(x, index).map_err(|error| Trouble::of(&error))?;
+        let mut waves = vec![(whole.a().to_vec(), whole.b().to_vec())];
+        if !self.orders.is_empty() {
+            let series = DebyeSeries::new(x, index).map_err(|error| Trouble::of(&error))?;
+            waves.extend(self.orders.iter().map(|p| series.coefficients(&[Term::Order(*p)])));
+        }
+        let mut each = summed(&waves, theta);
         let pairs = |pairs: Vec<(Complex64, Complex64)>| -> Curve {
             pairs.into_iter().map(|(s1, s2)| [0.5 * s2.norm_sqr(), 0.5 * s1.norm_sqr()]).collect()
         };
         let mut curves = Curves {
-            whole: pairs(whole.amplitudes(theta)),
+            whole: pairs(each.remove(0)),
             method: "Lorenz–Mie series",
             ..Curves::default()
         };
-        if !self.orders.is_empty() {
-            let series = DebyeSeries::new(x, index).map_err(|error| Trouble::of(&error))?;
-            let each: Vec<Vec<(Complex64, Complex64)>> =
-                self.orders.iter().map(|p| series.amplitudes(Term::Order(*p), theta)).collect();
+        if !each.is_empty() {
             let add = |i: usize| {
                 each.iter().fold((Complex64::default(), Complex64::default()), |s, e| {
                     (s.0 + e[i].0, s.1 + e[i].1)
@@ -262,6 +271,19 @@ impl Question {
         }
         Ok(curves)
     }
+}
+
+/// (S1, S2) of partial waves a_n, b_n; two by two, since they share the functions of the angle.
+fn summed(
+    waves: &[(Vec<Complex64>, Vec<Complex64>)],
+    theta: &[f64],
+) -> Vec<Vec<(Complex64, Complex64)>> {
+    let set = AngleSet::new(theta);
+    let sums = waves.chunks(2).flat_map(|some| match some {
+        [p, q] => amplitudes_together([(&p.0[..], &p.1[..]), (&q.0, &q.1)], &set).to_vec(),
+        _ => some.iter().map(|(a, b)| amplitudes(a, b, &set)).collect(),
+    });
+    sums.collect()
 }
 
 fn intensities(amplitudes: &[AmplitudeMatrix]) -> Curve {

@@ -54,18 +54,18 @@ impl Lookup {
         })
     }
 
-    /// XYZ in a direction (radians), where the columns reach.
-    pub fn at(&self, theta: f64, phi: f64) -> Option<[f64; 3]> {
+    /// Which two angles a third one (radians) is between, and its share of the second; where the columns reach.
+    fn between(&self, theta: f64) -> Option<(usize, f64)> {
         let place = (theta - self.from) / self.step;
         let last = (self.points - 1) as f64;
-        if !(-1e-9..=last + 1e-9).contains(&place) {
-            return None;
-        }
-        let (cell, share) = bracket(place.clamp(0.0, last), self.points);
-        let of = |column: usize| -> [f64; 3] {
-            let row = &self.xyz[column * self.points..];
-            std::array::from_fn(|c| (1.0 - share) * row[cell][c] + share * row[cell + 1][c])
-        };
+        let reaches = (-1e-9..=last + 1e-9).contains(&place);
+        reaches.then(|| bracket(place.clamp(0.0, last), self.points))
+    }
+
+    /// XYZ in a direction (radians), where the columns reach.
+    pub fn at(&self, theta: f64, phi: f64) -> Option<[f64; 3]> {
+        let (cell, share) = self.between(theta)?;
+        let of = |column: usize| mixed(&self.xyz[column * self.points..], cell, share);
         if self.azimuths.len() == 1 {
             return Some(of(0));
         }
@@ -77,6 +77,10 @@ impl Lookup {
         let (a, b) = (of(right - 1), of(right));
         Some(std::array::from_fn(|c| (1.0 - share) * a[c] + share * b[c]))
     }
+}
+
+fn mixed(row: &[[f64; 3]], cell: usize, share: f64) -> [f64; 3] {
+    std::array::from_fn(|c| (1.0 - share) * row[cell][c] + share * row[cell + 1][c])
 }
 
 fn bracket(place: f64, points: usize) -> (usize, f64) {
@@ -100,12 +104,13 @@ struct Question {
 }
 
 /// Luminance of the brightest place between [`BOWS`], at 0 stops, above the background.
-const BRIGHTEST: f64 = 0.45;
+pub const BRIGHTEST: f64 = 0.45;
 /// Scattering angles of the bows, degrees, whose brightness sets the exposure.
 const BOWS: (f64, f64) = (120.0, 160.0);
 /// Colours of the air beside the bow and of the ground, linear sRGB.
-const BACKGROUND: [f64; 3] = [0.055, 0.075, 0.105];
-const GROUND: [f64; 3] = [0.022, 0.028, 0.018];
+pub const BACKGROUND: [f64; 3] = [0.055, 0.075, 0.105];
+/// As [`BACKGROUND`].
+pub const GROUND: [f64; 3] = [0.022, 0.028, 0.018];
 /// Most pixels of a picture.
 const MOST_PIXELS: usize = 4_000_000;
 
@@ -131,6 +136,15 @@ pub fn sky(request: &Request) -> Result<Reply, Trouble> {
     }
     let exposure = exposure(&lookup, &asked.columns, asked.stops);
     let (sine, cosine) = asked.sun_elevation_deg.to_radians().sin_cos();
+    let bow = |xyz: [f64; 3]| {
+        let bow = xyz_to_linear_srgb(xyz.map(|v| v * exposure));
+        levels(std::array::from_fn(|c| bow[c] + BACKGROUND[c]))
+    };
+    let (air, ground) = (levels(BACKGROUND), levels(GROUND));
+    // Of one column every angle has its colour, and few pixels ask for new ones: what lies between two angles is
+    // between their colours, to a fraction of a level.
+    let colours: Option<Vec<[f64; 3]>> =
+        (lookup.azimuths.len() == 1).then(|| lookup.xyz.iter().map(|xyz| bow(*xyz)).collect());
     let mut rgba = Vec::with_capacity(4 * asked.width * asked.height);
     for row in 0..asked.height {
         for column in 0..asked.width {
@@ -139,19 +153,23 @@ pub fn sky(request: &Request) -> Result<Reply, Trouble> {
                 continue;
             };
             let (theta, phi) = scattered([view.x, view.y, view.z], sine, cosine);
-            let linear = match lookup.at(theta, phi) {
-                _ if asked.ground && view.z < 0.0 => GROUND,
-                None => BACKGROUND,
-                Some(xyz) => {
-                    let bow = xyz_to_linear_srgb(xyz.map(|v| v * exposure));
-                    std::array::from_fn(|c| bow[c] + BACKGROUND[c])
+            let seen = match &colours {
+                _ if asked.ground && view.z < 0.0 => Some(ground),
+                Some(colours) => {
+                    lookup.between(theta).map(|(cell, share)| mixed(colours, cell, share))
                 }
+                None => lookup.at(theta, phi).map(bow),
             };
-            rgba.extend(fit_gamut(linear).map(|v| (255.0 * encode_srgb(v)).round() as u8));
+            rgba.extend(seen.unwrap_or(air).map(|v| v.round() as u8));
             rgba.push(255);
         }
     }
     Ok(Reply::new(json!({ "exposure": exposure })).with_bytes("rgba", rgba))
+}
+
+/// Linear sRGB as levels of 255, not yet rounded.
+fn levels(linear: [f64; 3]) -> [f64; 3] {
+    fit_gamut(linear).map(|v| 255.0 * encode_srgb(v))
 }
 
 /// Scattering angle and azimuth of the light that comes from where one looks, for the sine and cosine of the
@@ -193,6 +211,31 @@ mod tests {
         let (theta, phi) = scattered([cosine_up, 0.0, sine_up], sine, cosine);
         assert!((theta.to_degrees() - 138.0).abs() < 1e-9, "{}", theta.to_degrees());
         assert!((phi.abs().to_degrees() - 180.0).abs() < 1e-9, "{phi}");
+    }
+
+    /// One column's colours looked up are those of two equal columns, which are computed pixel by pixel.
+    #[test]
+    fn one_column_is_as_two_of_it() {
+        let numbers: Vec<f64> = (0..PER_ANGLE * 226)
+            .map(|i| {
+                let (deg, k) = (120.0 + 0.2 * (i / PER_ANGLE) as f64, i % PER_ANGLE);
+                0.01 + 0.1 * (-((deg - 138.0 - 0.2 * k as f64) / 1.5).powi(2)).exp()
+            })
+            .collect();
+        let drawn = |azimuths: &[f64]| {
+            let header = json!({
+                "op": "sky", "sun_elevation_deg": 20.0, "fov_deg": 80.0, "elevation_deg": 15.0,
+                "azimuth_deg": 5.0, "width": 120, "height": 72, "stops": 0.0, "ground": true,
+                "columns": { "theta_deg": [120.0, 165.0], "points": 226, "azimuths_deg": azimuths,
+                             "polarisation": "total" },
+            });
+            let reply = sky(&Request::new(header, numbers.repeat(azimuths.len()))).unwrap();
+            let crate::message::Block::U8(rgba) = &reply.blocks[0].1 else { unreachable!() };
+            rgba.clone()
+        };
+        let (one, two) = (drawn(&[0.0]), drawn(&[0.0, 180.0]));
+        assert!(one.iter().max() > Some(&150), "there is a bow");
+        assert!(one.iter().zip(&two).all(|(a, b)| a.abs_diff(*b) <= 1));
     }
 
     /// The picture of a bow is that which the library draws of a table of the same drops.

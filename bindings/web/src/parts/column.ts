@@ -9,6 +9,9 @@ export interface Stretch {
   points: number;
 }
 
+/** Fineness of first answers: few wavelengths, and the fine fringes are smoothed away. */
+export const SKETCH = 0.03;
+
 export function columnOf(state: State, stretch: Stretch, fineness: number, more: Record<string, unknown> = {}): Header {
   return {
     op: "column", drop: dropOf(state), theta_deg: [stretch.from, stretch.to], points: stretch.points,

@@ -1,6 +1,6 @@
 /** One control per field of the state: a label, an input, a slider where it helps, and room for a message. */
 
-import { type Field, HIGHEST_ORDER, read, SPECS, type Spec, type NumberSpec, type State } from "../state";
+import { type Field, HIGHEST_ORDER, read, type Shown, SPECS, type Spec, type NumberSpec, type State } from "../state";
 import { make } from "./dom";
 import { digits, sizeFactor, sizeUnit } from "./units";
 
@@ -25,8 +25,8 @@ export function control(field: Field, state: () => State, change: Change): Contr
     message.hidden = text === undefined;
     for (const input of element.querySelectorAll("input, select")) input.setAttribute("aria-invalid", String(text !== undefined));
   };
-  const take = (typed: string): void => {
-    const found = read(field, typed);
+  const take = (typed: string, shown?: Shown): void => {
+    const found = read(field, typed, shown);
     if ("message" in found) tell(found.message);
     else {
       tell(undefined);
@@ -43,7 +43,7 @@ interface Inputs {
   show(state: State): void;
 }
 
-function inputs(field: Field, spec: Spec, state: () => State, take: (typed: string) => void): Inputs {
+function inputs(field: Field, spec: Spec, state: () => State, take: (typed: string, shown?: Shown) => void): Inputs {
   const id = `field-${field}`;
   const described = { id, "aria-describedby": `message-${field} hint-${field}` };
   const hint = make("span", { class: "hint", id: `hint-${field}` }, "hint" in spec && spec.hint ? spec.hint : "");
@@ -81,7 +81,7 @@ function inputs(field: Field, spec: Spec, state: () => State, take: (typed: stri
 const NAMES = ["outer reflection", "straight through", "primary bow", "secondary bow", "third bow", "fourth bow", "fifth bow"];
 
 function numeric(
-  field: Field, spec: NumberSpec, state: () => State, take: (typed: string) => void,
+  field: Field, spec: NumberSpec, state: () => State, take: (typed: string, shown?: Shown) => void,
   described: Record<string, string>, hint: HTMLElement,
 ): Inputs {
   const factor = (now: State): number => (SIZES.includes(field) ? sizeFactor(now) : 1);
@@ -90,11 +90,7 @@ function numeric(
   // text and not a number field: what is wrong is to be seen and told
   const input = make("input", {
     ...described, type: "text", inputmode: "decimal", autocomplete: "off",
-    change: () => {
-      const typed = input.value.trim().replace(",", ".");
-      const value = Number(typed);
-      take(typed !== "" && Number.isFinite(value) ? String(Number((value / factor(state())).toPrecision(12))) : input.value);
-    },
+    change: () => take(input.value, SIZES.includes(field) ? { factor: sizeFactor(state()), unit: sizeUnit(state()) } : undefined),
   });
   const [from, to] = spec.log ? [Math.log(spec.from), Math.log(spec.to)] : [spec.from, spec.to];
   const steps = spec.log ? TICKS : Math.round((to - from) / spec.step);
@@ -112,7 +108,7 @@ function numeric(
       const text = digits(value * factor(now), 6);
       shown(input, text);
       unit.textContent = SIZES.includes(field) ? sizeUnit(now) : spec.unit;
-      if (field === "radius_um") label.textContent = now.size_as === "diameter" ? "Diameter" : "Radius";
+      if (SIZES.includes(field)) label.textContent = spec.label.replace("Radius", now.size_as === "diameter" ? "Diameter" : "Radius");
       slider.value = String(Math.round((((spec.log ? Math.log(value) : value) - from) / (to - from)) * steps));
       slider.setAttribute("aria-valuetext", `${text} ${unit.textContent}`);
     },

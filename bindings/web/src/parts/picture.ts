@@ -23,13 +23,22 @@ export interface Axis {
 const [LEFT, RIGHT, TOP, BOTTOM] = [70, 20, 16, 52];
 export const PLOT = { width: 900, height: 520 };
 
+/** Steps of a logarithmic axis within a power of ten: the more, the fewer powers there are. */
+const WITHIN = [[1], [1, 2, 5], [1, 2, 3, 4, 5, 6, 8]] as const;
+const ENOUGH = 4;
+
 /** Round numbers between two. */
 export function ticks({ from, to, log }: Axis): number[] {
   const [low, high] = [Math.min(from, to), Math.max(from, to)];
-  if (log) {
-    const powers: number[] = [];
-    for (let power = Math.ceil(Math.log10(low) - 1e-9); power <= Math.log10(high) + 1e-9; power += 1) powers.push(10 ** power);
-    return powers;
+  if (log && high > 2 * low) {
+    const inside = (factors: readonly number[]): number[] => {
+      const found: number[] = [];
+      for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high) + 1e-9; power += 1) {
+        found.push(...factors.map((factor) => Number((factor * 10 ** power).toPrecision(12))));
+      }
+      return found.filter((tick) => tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9));
+    };
+    return WITHIN.map(inside).find((found) => found.length >= ENOUGH) ?? inside(WITHIN[2]);
   }
   const raw = (high - low) / 8;
   const power = 10 ** Math.floor(Math.log10(raw));
@@ -39,7 +48,8 @@ export function ticks({ from, to, log }: Axis): number[] {
   return found;
 }
 
-const place = (axis: Axis, value: number): number => {
+/** Where a value stands between the ends of an axis, 0 to 1. */
+export const place = (axis: Axis, value: number): number => {
   const of = (v: number): number => (axis.log ? Math.log10(v) : v);
   return (of(value) - of(axis.from)) / (of(axis.to) - of(axis.from));
 };
@@ -47,11 +57,13 @@ const place = (axis: Axis, value: number): number => {
 export const toX = (axis: Axis, value: number): number => LEFT + place(axis, value) * (PLOT.width - LEFT - RIGHT);
 export const toY = (axis: Axis, value: number): number => PLOT.height - BOTTOM - place(axis, value) * (PLOT.height - TOP - BOTTOM);
 
+/** A tick's number. */
+export const short = (value: number, log: boolean | undefined): string => (log && Math.abs(Math.log10(value)) > 3 ? value.toExponential(0) : String(Number(value.toPrecision(6))));
+
 /** A frame with axes around `body`, which is drawn by [`toX`] and [`toY`]. */
 export function framed(x: Axis, y: Axis, body: string, caption: string): string {
   const { width, height } = PLOT;
   const text = (at: string, anchor: string, words: string): string => `<text ${at} text-anchor="${anchor}">${escaped(words)}</text>`;
-  const short = (value: number, log: boolean | undefined): string => (log && Math.abs(Math.log10(value)) > 3 ? value.toExponential(0) : String(Number(value.toPrecision(6))));
   const across = ticks(x).map((tick) => {
     const at = toX(x, tick).toFixed(1);
     return `<path d="M${at} ${height - BOTTOM}v5"/>${text(`x="${at}" y="${height - BOTTOM + 19}" stroke="none"`, "middle", short(tick, x.log))}`;

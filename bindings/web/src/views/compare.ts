@@ -3,7 +3,7 @@
 import type { Reply } from "../engine/message";
 import { dropOf, isRound, SHAPES, type State } from "../state";
 import { Chart, type Curve, range } from "../parts/chart";
-import { columnOf } from "../parts/column";
+import { columnOf, SKETCH } from "../parts/column";
 import { make, themed } from "../parts/dom";
 import { drawn, PLOT, table } from "../parts/picture";
 import { angleName, angleShown, digits, sizeText } from "../parts/units";
@@ -12,6 +12,8 @@ import type { Page, View } from "./view";
 
 const COARSE = 241;
 const FINE = 1201;
+/** Scattering angles at which colours are compared. */
+const LIMITS = { from: 90, to: 170 };
 /** Degrees over which the error of rays is averaged: their single ripples mean nothing. */
 const BAND = 1;
 
@@ -49,7 +51,7 @@ export function compareView(page: Page): View {
     });
     const off: Curve[] = [{ name: intensity ? `relative difference, means over ${BAND}°` : `difference, means over ${BAND}°`, colour: themed("--order-4"), values: ratio }];
     const largest = Math.min(10, Math.max(0.02, ...ratio.map((value) => (Number.isFinite(value) ? Math.abs(value) : 0))));
-    error.show({ x, y: { label: "second − first", from: -1.05 * largest, to: 1.05 * largest }, at, curves: off, marks: [] });
+    error.show({ x, y: { label: intensity ? "(second − first) / first" : "second − first", from: -1.05 * largest, to: 1.05 * largest }, at, curves: off, marks: [] });
     shown = { at, curves: [...curves, ...off] };
     const middle = ratio.map(Math.abs).filter(Number.isFinite).sort((p, q) => p - q);
     words.textContent = `Half of the angles differ by less than ${digits(100 * (middle[Math.floor(middle.length / 2)] ?? NaN), 3)} %, the worst by ${digits(100 * (middle.at(-1) ?? NaN), 3)} %.`;
@@ -77,8 +79,11 @@ export function compareView(page: Page): View {
         throw new Error("rays are compared with the exact series of a sphere: choose the sphere as the drop");
       }
       if (state.light === "daylight" && state.other === "drop") {
+        if (state.to_deg <= LIMITS.from || state.from_deg >= LIMITS.to - 0.5) {
+          throw new Error(`in daylight drops are compared from ${LIMITS.from} to ${LIMITS.to}° from the sun: choose angles there, or one wavelength`);
+        }
         // near the axis colours take longest, and this is about bows
-        const stretch = { from: Math.max(state.from_deg, 90), to: Math.min(Math.max(state.to_deg, 91), 170), points: COARSE };
+        const stretch = { from: Math.max(state.from_deg, LIMITS.from), to: Math.min(state.to_deg, LIMITS.to), points: COARSE };
         const both = (fineness: number, points: number, lane: "quickly" | "finely"): Promise<Reply[]> =>
           page.engine[lane]([{}, { shape: state.other_shape, radius_um: state.other_um }].map((own) => {
             const sketch = isRound(String(own.shape ?? state.shape)) || lane === "finely" ? {} : { wavelength_nm: 560, sun_disc: false };
@@ -88,11 +93,11 @@ export function compareView(page: Page): View {
           const xyz = reply?.f64["xyz"] ?? new Float64Array();
           return Float64Array.from({ length: xyz.length / 3 }, (_, i) => xyz[6 * (i >> 1) + (i % 2 === 0 ? 1 : 4)] ?? NaN);
         };
-        for (const [fineness, points, lane] of [[0.1, 121, "quickly"], [0.4, 601, "finely"]] as const) {
+        for (const [fineness, points, lane] of [[SKETCH, 121, "quickly"], [0.4, 601, "finely"]] as const) {
           const [a, b] = await both(fineness, points, lane);
           if (lane === "finely" && !alive()) return;
           show(state, luminance(a), luminance(b), a?.f64["theta_deg"] ?? new Float64Array());
-          page.status(lane === "quickly" ? "coarse: luminance in daylight, few wavelengths" : "luminance in daylight, 90 to 170° from the sun", lane === "quickly");
+          page.status(lane === "quickly" ? "coarse: luminance in daylight, few wavelengths" : `luminance in daylight, ${LIMITS.from} to ${LIMITS.to}° from the sun`, lane === "quickly");
           if (!alive()) return;
         }
         return;

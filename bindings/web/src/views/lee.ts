@@ -2,9 +2,9 @@
 
 import { Dropped } from "../engine/engine";
 import { dropOf, isRound, type State } from "../state";
-import { columnOf, PER_ANGLE } from "../parts/column";
+import { columnOf, PER_ANGLE, SKETCH } from "../parts/column";
 import { make } from "../parts/dom";
-import { canvasOf, drawn, framed, INSIDE, PLOT, table, toX } from "../parts/picture";
+import { type Axis, canvasOf, drawn, framed, INSIDE, place, PLOT, short, table, ticks, toX } from "../parts/picture";
 import { angleName, angleShown, digits, sizeFactor, sizeName, sizeText, sizeUnit } from "../parts/units";
 import type { Page, View } from "./view";
 
@@ -18,11 +18,11 @@ export function leeView(page: Page): View {
   const canvas = make("canvas", { width: String(COLUMNS), height: String(ROWS), class: "lee", tabindex: "0", role: "application", "aria-label": "Lee diagram: colours by size and angle. Left and right pick the size." });
   const cursor = make("div", { class: "cursor" });
   const frame = make("div", { class: "lee-frame" }, canvas, cursor);
-  const [left, right] = [make("span"), make("span")];
-  const [top, bottom] = [make("span"), make("span")];
+  const [across, up] = [make("div", { class: "lee-x" }), make("div", { class: "lee-y" })];
+  const [acrossName, upName] = [make("p", { class: "lee-x-name" }), make("p", { class: "lee-y-name" })];
   const read = make("p", { class: "legend" });
-  const element = make("section", { class: "view-lee" },
-    make("div", { class: "lee-grid" }, make("div", { class: "lee-y" }, top, bottom), frame, make("div", { class: "lee-x" }, left, right)), read);
+  const about = make("p", { class: "note" });
+  const element = make("section", { class: "view-lee" }, make("div", { class: "lee-grid" }, upName, up, frame, across, acrossName), read, about);
   const columns = new Map<number, Float64Array>();
   let rgb = new Map<number, Uint8Array>();
   let key = "";
@@ -77,17 +77,25 @@ export function leeView(page: Page): View {
     cursor.hidden = share < 0 || share > 1;
     cursor.style.left = `${100 * share}%`;
     read.textContent = `The line: ${sizeName(state)} ${sizeText(state, state.radius_um)}. Drag it to choose the drop of all views.`;
-    left.textContent = sizeText(state, state.lee_from_um);
-    right.textContent = sizeText(state, state.lee_to_um);
-    top.textContent = `${angleShown(state, TO)}°`;
-    bottom.textContent = `${angleShown(state, FROM)}°`;
+    const { x, y } = axes(state);
+    across.replaceChildren(...ticks(x).map((tick) => make("span", { style: `left:${(100 * place(x, tick)).toFixed(2)}%` }, short(tick, true))));
+    up.replaceChildren(...ticks(y).map((tick) => make("span", { style: `bottom:${(100 * place(y, tick)).toFixed(2)}%` }, short(tick, false))));
+    [acrossName.textContent, upName.textContent] = [x.label, y.label];
+    about.textContent = `What the eye sees at each angle, of ${state.light === "one" ? `light of ${digits(state.wavelength_nm)} nm` : "daylight"}. Every size is exposed by itself: colours compare from left to right, brightness does not.`;
+  };
+
+  const axes = (state: State): { x: Axis; y: Axis } => {
+    const factor = sizeFactor(state);
+    return {
+      x: { label: `${sizeName(state)} (${sizeUnit(state)})`, from: state.lee_from_um * factor, to: state.lee_to_um * factor, log: true },
+      y: { label: angleName(state), from: angleShown(state, FROM), to: angleShown(state, TO) },
+    };
   };
 
   const svg = (): string => {
     const state = page.state();
+    const { x, y } = axes(state);
     const factor = sizeFactor(state);
-    const x = { label: `${sizeName(state)} (${sizeUnit(state)})`, from: state.lee_from_um * factor, to: state.lee_to_um * factor, log: true };
-    const y = { label: angleName(state), from: angleShown(state, FROM), to: angleShown(state, TO) };
     const image = `<image href="${canvas.toDataURL("image/png")}" x="${INSIDE.x}" y="${INSIDE.y}" width="${INSIDE.width}" height="${INSIDE.height}" preserveAspectRatio="none"/>`;
     const at = toX(x, state.radius_um * factor);
     const line = cursor.hidden ? "" : `<path d="M${at.toFixed(1)} ${INSIDE.y}v${INSIDE.height}" stroke="white" stroke-dasharray="4 4"/>`;
@@ -121,7 +129,7 @@ export function leeView(page: Page): View {
       };
       const middle = Math.round(Math.min(COLUMNS - 1, Math.max(0, columnAt(state, state.radius_um))));
       if (columns.size === 0) {
-        await ask(middle, 0.1, "quickly", isRound(state.shape) ? {} : { wavelength_nm: 560, sun_disc: false });
+        await ask(middle, SKETCH, "quickly", isRound(state.shape) ? {} : { wavelength_nm: 560, sun_disc: false });
         page.status("coarse: one column", true);
       } else if (painted !== state.polarisation) {
         const known = [...columns.keys()];

@@ -1,7 +1,7 @@
 /** A photograph with the computed bow over it, and the drops that fit a cut across it. Nothing leaves the page. */
 
 import { dropOf, type State } from "../state";
-import { columnOf } from "../parts/column";
+import { columnOf, SKETCH } from "../parts/column";
 import { make } from "../parts/dom";
 import { canvasOf, table } from "../parts/picture";
 import { inspected } from "../parts/photo_file";
@@ -11,6 +11,8 @@ import type { Page, View } from "./view";
 /** Widest that a photograph is kept. */
 const WIDTH = 1100;
 const HIGHEST = 1600;
+/** Width of the bow that is drawn at once. */
+const SKETCH_WIDTH = 275;
 /** The bow's column, and the cut that is fitted. */
 const BOW = { from: 100, to: 165, points: 651 };
 const CUT = { from: 131, to: 148, points: 205 };
@@ -203,13 +205,17 @@ export function photoView(page: Page): View {
       drawLines(state);
       const overlay = async (from: typeof BOW, fineness: number, lane: "quickly" | "finely"): Promise<void> => {
         const drop = { ...dropOf(state), shape: "sphere" };
+        const whole = viewOf(state);
+        const scale = lane === "quickly" ? Math.min(1, SKETCH_WIDTH / whole.width) : 1;
+        const [width, height] = [Math.max(2, Math.round(whole.width * scale)), Math.max(2, Math.round(whole.height * scale))];
+        const view = { ...whole, width, height, antisolar: [state.photo_x * width, state.photo_y * height] };
         const columns = { theta_deg: [from.from, from.to], points: from.points, azimuths_deg: [0], polarisation: state.polarisation };
-        const [, reply] = await page.engine[lane]([{ header: columnOf(state, from, fineness, { drop }) }, { header: { op: "photograph", view: viewOf(state), stops: state.photo_stops, columns }, of: 0 }]);
+        const [, reply] = await page.engine[lane]([{ header: columnOf(state, from, fineness, { drop }) }, { header: { op: "photograph", view, stops: state.photo_stops, columns }, of: 0 }]);
         if (lane === "finely" && !alive()) return;
         [over.width, over.height] = [picture.width, picture.height];
-        over.getContext("2d")?.drawImage(canvasOf(reply?.u8["rgba"] ?? new Uint8Array(4 * picture.width * picture.height), picture.width, picture.height), 0, 0);
+        over.getContext("2d")?.drawImage(canvasOf(reply?.u8["rgba"] ?? new Uint8Array(4 * width * height), width, height), 0, 0, over.width, over.height);
       };
-      await overlay({ from: 125, to: 150, points: 251 }, 0.1, "quickly");
+      await overlay({ from: 125, to: 150, points: 251 }, SKETCH, "quickly");
       page.status("coarse: few wavelengths", true);
       if (!alive()) return;
       await overlay(BOW, 0.3, "finely");

@@ -164,7 +164,7 @@ function words(state: State, coarse: Reply, fine: Reply | undefined): string {
   const lines = state.orders.map((order) => {
     const ray = middle(order);
     const bows = ((fine?.header["rainbows"] ?? []) as Bow[]).filter((bow) => bow.order === order);
-    const leaves = ray ? `leaves at ${angleShown(state, ray[3]).toFixed(2)}°` : "does not leave";
+    const leaves = ray ? `leaves at ${angleShown(state, ray[3]).toFixed(2)}°` : "no ray leaves from this impact";
     const told = [...new Set(bows.map((bow) => angleShown(state, bow.deg).toFixed(2)))].map((deg) => `${deg}°`).join(", ");
     return `<span style="color:var(--order-${order})">■</span> order ${order}: ${escaped(leaves)}${told === "" ? "" : `; rainbow at <b>${told}</b>`}`;
   });

@@ -4,14 +4,16 @@ import type { Header, Reply } from "../engine/message";
 import type { Step } from "../engine/worker";
 import { dropOf, isRound, type State } from "../state";
 import { Chart, type Curve, range } from "../parts/chart";
-import { columnOf } from "../parts/column";
+import { columnOf, SKETCH } from "../parts/column";
 import { make, themed } from "../parts/dom";
 import { canvasOf, drawn, PLOT, table } from "../parts/picture";
 import { angleName, angleShown, digits, sizeName, sizeText } from "../parts/units";
 import type { Page, View } from "./view";
 
-/** Angles of a coarse and of a fine curve. */
+/** Angles of a coarse and of a fine curve; of large round drops a coarse one has fewer. */
 const COARSE = 241;
+const COARSE_OF_LARGE = 121;
+const LARGE_UM = 200;
 const FINE = 1801;
 /** Sizes that stand for a spread. */
 const SIZES = 48;
@@ -31,9 +33,10 @@ export function scatteredView(page: Page): View {
   let shown: { at: number[]; curves: Curve[] } = { at: [], curves: [] };
   let caption = "";
 
+  const coarse = (state: State): number => (isRound(state.shape) && state.radius_um > LARGE_UM ? COARSE_OF_LARGE : COARSE);
   const question = (state: State, fine: boolean, whole: boolean) => ({
     op: "scattered", drop: fine ? dropOf(state) : { ...dropOf(state), spread: 0 }, wavelength_nm: state.wavelength_nm,
-    theta_deg: [state.from_deg, state.to_deg], points: fine ? FINE : COARSE, azimuth_deg: state.azimuth_deg,
+    theta_deg: [state.from_deg, state.to_deg], points: fine ? FINE : coarse(state), azimuth_deg: state.azimuth_deg,
     // of rays one order is quick, and the primary bow matters most
     orders: fine || isRound(state.shape) ? state.orders : [state.orders.includes(2) ? 2 : (state.orders[0] ?? 2)],
     sun_disc: fine && state.sun_disc, sizes: SIZES, tolerance: fine ? 0.02 : 0.1, by_rays: false, whole,
@@ -111,10 +114,10 @@ export function scatteredView(page: Page): View {
       note.hidden = !daylight;
       strip.hidden = !daylight;
       if (!daylight) {
-        const coarse = await page.engine.quick(question(state, false, isRound(state.shape)));
-        ofWavelength(state, coarse);
-        const method = String(coarse.header["method"]);
-        page.status(`coarse: ${COARSE} angles${state.sun_disc ? ", a point of light" : ""}${state.spread > 0 ? ", one size" : ""}${isRound(state.shape) ? "" : ", one order alone"}; ${method}`, true);
+        const first = await page.engine.quick(question(state, false, isRound(state.shape)));
+        ofWavelength(state, first);
+        const method = String(first.header["method"]);
+        page.status(`coarse: ${coarse(state)} angles${state.sun_disc ? ", a point of light" : ""}${state.spread > 0 ? ", one size" : ""}${isRound(state.shape) ? "" : ", one order alone"}; ${method}`, true);
         if (!alive()) return;
         const fine = await page.engine.fine(question(state, true, state.whole || isRound(state.shape)));
         if (!alive()) return;
@@ -128,7 +131,7 @@ export function scatteredView(page: Page): View {
       const [from, to] = [Math.max(state.from_deg, Math.min(125, state.to_deg - 1)), state.to_deg];
       const near = { from, to: Math.max(from + 0.5, Math.min(to, 146)), points: 201 };
       const sketch = round ? {} : { wavelength_nm: 560, sun_disc: false, drop: { ...dropOf(state), spread: 0 } };
-      coloured(state, await page.engine.quickly(steps(state, columnOf(state, round ? near : { ...near, points: 81 }, 0.1, sketch))));
+      coloured(state, await page.engine.quickly(steps(state, columnOf(state, round ? near : { ...near, points: 81 }, SKETCH, sketch))));
       page.status(round ? "coarse: few wavelengths, about the bows" : "coarse: the primary bow alone, at 560 nm", true);
       if (!alive()) return;
       for (const [fineness, points] of round ? [[0.2, 601], [1, FINE]] as const : [[0.1, 301], [0.4, 601]] as const) {

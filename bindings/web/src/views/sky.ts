@@ -2,7 +2,7 @@
 
 import type { Header, Reply } from "../engine/message";
 import { dropOf, isRound, type State } from "../state";
-import { columnOf, empty, PER_ANGLE, type Stretch } from "../parts/column";
+import { columnOf, empty, PER_ANGLE, SKETCH, type Stretch } from "../parts/column";
 import { make } from "../parts/dom";
 import { canvasOf, table } from "../parts/picture";
 import { digits, sizeText } from "../parts/units";
@@ -15,7 +15,7 @@ const NEAR_AXIS = 165;
 const LARGEST_GLORY_UM = 60;
 /** Azimuths of a whole sky of drops that are not round; each takes seconds. */
 const AZIMUTHS = [180, 150, 120, 90, 60, 30, 0];
-const COARSE_WIDTH = 280;
+const COARSE_WIDTH = 240;
 const FINE_WIDTH = 1200;
 const RATIO = 0.6;
 
@@ -52,7 +52,7 @@ export function skyView(page: Page): View {
   };
   /** A column about the bows and its sky, at once. */
   const sketched = async (state: State, stretch: Stretch, more: Record<string, unknown>): Promise<void> => {
-    const [, reply] = await page.engine.quickly([{ header: columnOf(state, stretch, 0.1, more) }, { header: camera(state, COARSE_WIDTH, stretch, [0]), of: 0 }]);
+    const [, reply] = await page.engine.quickly([{ header: columnOf(state, stretch, SKETCH, more) }, { header: camera(state, COARSE_WIDTH, stretch, [0]), of: 0 }]);
     draw(reply, COARSE_WIDTH);
   };
 

@@ -34,6 +34,8 @@ pub enum TMatrixError {
     NotConverged { size_parameter: f64, tolerance: f64, reached: f64, degrees: usize },
     #[error(transparent)]
     NoMean(#[from] NoMean),
+    #[error("T-matrices were left out of this build: the feature \"tmatrix\" brings them")]
+    LeftOut,
     #[error("size parameter {size_parameter}: the T-matrix of this body overflows")]
     Diverged { size_parameter: f64 },
 }
@@ -58,6 +60,7 @@ impl Blame for TMatrixError {
             TMatrixError::NotStarShaped { .. }
             | TMatrixError::Size(_)
             | TMatrixError::NoContrast
+            | TMatrixError::LeftOut
             | TMatrixError::TooLarge { .. } => Fault::Input,
             TMatrixError::NotConverged { .. }
             | TMatrixError::NoMean(_)

@@ -13,6 +13,7 @@ mod weld;
 
 use super::Body;
 use super::check::{self, BodyError};
+use crate::pending_file::FILES;
 use glam::DVec3;
 use soup::{LARGEST_FILE, Soup, within_limits};
 use std::io::Read;
@@ -38,6 +39,9 @@ impl Mesh {
     /// A file that cannot be read or is too long, and whatever [`Mesh::parse`] refuses.
     pub fn load(path: &Path) -> Result<Self, MeshError> {
         let format = Format::of(path).ok_or(MeshError::Ending)?;
+        if !FILES {
+            return Err(MeshError::Unreadable("there are no files in a browser".into()));
+        }
         let unreadable = |error: std::io::Error| MeshError::Unreadable(error.to_string());
         let told = std::fs::metadata(path).map_err(unreadable)?.len();
         if told > LARGEST_FILE {
