@@ -104,13 +104,16 @@ fn a_population_is_drawn_as_it_is_tabulated() {
     let particle = "shape = \"sphere\"\nsize_distribution = { kind = \"gamma\", effective_radius_um = 6, \
                     effective_variance = 0.1 }\n";
     let view = "[camera]\nwidth = 48\nheight = 27\n[sun]\nelevation_deg = 10\n[[drops]]\n";
-    let (folder, own) = scene(&format!("{view}wavelengths = 9\n{particle}"));
+    let (folder, own) = scene(&format!("{view}wavelengths = 9\ntolerance = 0.05\n{particle}"));
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     write(
         "population.toml",
         &format!("[particle]\n{particle}[light]\nwavelengths_nm = [400, 500]\n"),
     );
-    write("named.toml", &format!("{view}wavelengths = 9\nscene = \"population.toml\"\n"));
+    write(
+        "named.toml",
+        &format!("{view}wavelengths = 9\ntolerance = 0.05\nscene = \"population.toml\"\n"),
+    );
     write("finished.toml", &format!("{view}table = \"t.h5\"\n"));
     let table = ["table", "population.toml", "-o", "t.h5", "--no-preview"];
     let grid =

@@ -44,8 +44,8 @@ pub struct DropKeys {
 const REACH: f64 = 2.5;
 /// Radius where the scene tells none, mm.
 const USUAL_RADIUS: f64 = 0.5;
-/// Relative error of means where none is asked for: an eye sees less.
-const TOLERANCE_OF_MEANS: f64 = 0.05;
+/// Relative error of means where none is asked for: with fewer sizes their bows stand apart as rings.
+const TOLERANCE_OF_MEANS: f64 = 0.02;
 /// Wavelengths, nm, and how many unless told: bows of neighbours 20 nm apart are 0.1° apart, which means over sizes
 /// and the sun's disc smooth over.
 const VISIBLE: (f64, f64) = (390.0, 710.0);
