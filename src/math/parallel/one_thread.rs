@@ -86,26 +86,39 @@ impl<I: Iterator> ParallelIterator for I {}
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    macro_rules! looped {
+        ($numbers:expr) => {
+            $numbers
+                .par_chunks(7)
+                .with_max_len(1)
+                .zip((0..15u32).into_par_iter())
+                .flat_map_iter(|(chunk, k)| [chunk.iter().sum::<u32>() + k, k])
+                .collect::<Vec<u32>>()
+        };
+    }
+
+    mod here {
+        use super::super::*;
+
+        pub fn looped(numbers: &[u32]) -> (Vec<u32>, u32) {
+            let largest = reduced(numbers.par_iter().map(|n| 3 * n), || 0, u32::max);
+            (looped!(numbers), largest)
+        }
+    }
+
+    mod there {
+        use crate::math::parallel::*;
+
+        pub fn looped(numbers: &[u32]) -> (Vec<u32>, u32) {
+            let largest = reduced(numbers.par_iter().map(|n| 3 * n), || 0, u32::max);
+            (looped!(numbers), largest)
+        }
+    }
 
     /// The words mean what rayon's mean.
     #[test]
     fn loops_are_those_of_threads() {
         let numbers: Vec<u32> = (0..100).collect();
-        let pairs = |n: u32| [n, 2 * n];
-        let here: Vec<u32> = ParallelSlice::par_chunks(&numbers[..], 7)
-            .with_max_len(1)
-            .zip(IntoParallelIterator::into_par_iter(0..15))
-            .flat_map_iter(|(chunk, k)| pairs(chunk.iter().sum::<u32>() + k))
-            .collect();
-        let there: Vec<u32> = {
-            use rayon::prelude::*;
-            let chunks = numbers.par_chunks(7).with_max_len(1);
-            chunks
-                .zip((0..15u32).into_par_iter())
-                .flat_map_iter(|(chunk, k)| pairs(chunk.iter().sum::<u32>() + k))
-                .collect()
-        };
-        assert_eq!(here, there);
+        assert_eq!(here::looped(&numbers), there::looped(&numbers));
     }
 }
