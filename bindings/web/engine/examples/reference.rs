@@ -1,4 +1,4 @@
-//! What the page shows, by other ways of the library than the page's: a sky from a table of 71 wavelengths, as
+//! What the page shows, by other ways of the library than the page's: a sky from a table of 351 wavelengths, as
 //! `gonio render` draws it, and scattered light of one wavelength from the partial waves themselves.
 //! `tests/pictures.test.mjs` compares the page with it.
 //!
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn picture(asked: &Picture) -> Result<Vec<u8>, Box<dyn Error>> {
     let keys: SceneFile = toml::from_str(&format!(
         "[particle]\nshape = 'sphere'\nradius_um = {}\n[light]\nsun_elevation_deg = {}\n\
-         wavelengths_nm = {{ from = 380, to = 730, count = 71 }}\nsun_disc = 'limb-darkened'\n\
+         wavelengths_nm = {{ from = 380, to = 730, count = 351 }}\nsun_disc = 'limb-darkened'\n\
          [table]\ntheta_deg = {{ from = 90, to = 180, count = 1801 }}\nazimuth_deg = [0]\n\
          [model]\nmethod = 'mie'",
         asked.radius_um, asked.sun_elevation_deg
