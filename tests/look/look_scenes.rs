@@ -110,7 +110,10 @@ fn a_population_is_drawn_as_it_is_tabulated() {
         "population.toml",
         &format!("[particle]\n{particle}[light]\nwavelengths_nm = [400, 500]\n"),
     );
-    write("named.toml", &format!("{view}wavelengths = 9\ntolerance = 0.05\nscene = \"population.toml\"\n"));
+    write(
+        "named.toml",
+        &format!("{view}wavelengths = 9\ntolerance = 0.05\nscene = \"population.toml\"\n"),
+    );
     write("finished.toml", &format!("{view}table = \"t.h5\"\n"));
     let table = ["table", "population.toml", "-o", "t.h5", "--no-preview"];
     let grid =
