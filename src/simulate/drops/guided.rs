@@ -16,7 +16,7 @@ type Key = (u64, u64, u32);
 
 /// Guides by drop and order; none for drops whose orders have no planes.
 #[derive(Debug, Default)]
-pub(in crate::simulate) struct DropGuides(HashMap<Key, Guides>);
+pub(crate) struct DropGuides(HashMap<Key, Guides>);
 
 fn key(at: &Radius, order: u32) -> Key {
     (at.radius.to_bits(), at.place.to_bits(), order)
