@@ -96,11 +96,18 @@ impl Spheres {
     }
 }
 
+/// Values between two looks at Ctrl-C while room for them is made: a gigabyte takes a busy machine a second.
+const LOOK: usize = 1 << 20;
+
 /// Room for so many values per sphere.
-fn room<T: Copy>(spheres: &Spheres, width: usize, zero: T) -> PyResult<Vec<T>> {
+fn room<T: Copy>(py: Python<'_>, spheres: &Spheres, width: usize, zero: T) -> PyResult<Vec<T>> {
     let count = spheres.pairs.len().checked_mul(width).ok_or_else(|| too_large(usize::MAX))?;
     let mut values = Vec::new();
     values.try_reserve_exact(count).map_err(|_| too_large(count))?;
+    while count - values.len() > LOOK {
+        values.resize(values.len() + LOOK, zero);
+        py.check_signals()?;
+    }
     values.resize(count, zero);
     Ok(values)
 }
@@ -185,7 +192,7 @@ pub fn mie_amplitudes<'py>(
     let count = crate::job::threads(threads)?;
     let spheres = Spheres::new(x, m)?;
     let (theta, angle_shape) = angles(theta_deg)?;
-    let mut out = room(&spheres, theta.len(), (Complex64::ZERO, Complex64::ZERO))?;
+    let mut out = room(py, &spheres, theta.len(), (Complex64::ZERO, Complex64::ZERO))?;
     let set = AngleSet::new(&theta);
     spheres.fill(py, count, spheres.seconds(set.recurrences()), &mut out, |(x, m), out, few| {
         let sphere = Sphere::new(x, m)?;
@@ -216,7 +223,7 @@ pub fn mie_efficiencies<'py>(
     }
     let count = crate::job::threads(threads)?;
     let spheres = Spheres::new(x, m)?;
-    let mut out = room(&spheres, 1, [0.0; 5])?;
+    let mut out = room(py, &spheres, 1, [0.0; 5])?;
     spheres.fill(py, count, spheres.seconds(0), &mut out, |(x, m), out, _| {
         out[0] = numbers(x, m)?;
         Ok(())
@@ -243,7 +250,7 @@ pub fn mie_legendre<'py>(
     let largest = spheres.pairs.iter().fold(0.0_f64, |most, (x, _)| most.max(*x));
     let all = || 2 * (largest + 7.0 * largest.cbrt() + 4.0).ceil() as usize + 1;
     let width = count.unwrap_or_else(all);
-    let mut out = room(&spheres, width, 0.0)?;
+    let mut out = room(py, &spheres, width, 0.0)?;
     // nodes are half as many as coefficients and more
     let seconds = spheres.seconds(2 * width);
     spheres.fill(py, threads, seconds, &mut out, |(x, m), out, _| {
@@ -269,7 +276,7 @@ pub fn debye_amplitudes<'py>(
     let count = crate::job::threads(threads)?;
     let spheres = Spheres::new(x, m)?;
     let (theta, angle_shape) = angles(theta_deg)?;
-    let mut out = room(&spheres, theta.len(), (Complex64::ZERO, Complex64::ZERO))?;
+    let mut out = room(py, &spheres, theta.len(), (Complex64::ZERO, Complex64::ZERO))?;
     spheres.fill(py, count, 4.0 * spheres.seconds(theta.len()), &mut out, |(x, m), out, few| {
         let series = DebyeSeries::new(x, m)?;
         let found =
