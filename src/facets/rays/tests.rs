@@ -178,7 +178,7 @@ fn elements_are_physical_and_the_scatter_is_honest() {
     for i in 6..86 {
         let (a, b) = (few.values[(0, i, 0)], many.values[(0, i, 0)]);
         off += f64::from((a / b - 1.0).powi(2));
-        stated += few.error_by_direction[(i + 1) / 2].powi(2);
+        stated += few.error_by_direction[i.div_ceil(2)].powi(2);
         rows += 1;
     }
     let ratio = ((stated / f64::from(rows)) / (off / f64::from(rows))).sqrt();
