@@ -15,8 +15,8 @@ struct Curve {
     phi: f64,
     /// Which half of the plane, where there are two.
     half: &'static str,
-    /// Degrees and powers of ten.
-    points: Vec<(f64, f64)>,
+    /// Degrees and powers of ten, in pieces between angles without light.
+    pieces: Vec<Vec<(f64, f64)>>,
 }
 
 /// P(θ) at three wavelengths, upwards and (where it differs) downwards.
@@ -34,20 +34,22 @@ fn curves(table: &PhaseTable) -> Vec<Curve> {
     };
     let halves: Vec<_> =
         halves.iter().filter(|(phi, _)| grid.corners(axes.theta[0], *phi).is_some()).collect();
-    let points = |slab: &Slab, phi: f64| -> Vec<(f64, f64)> {
+    let pieces = |slab: &Slab, phi: f64| -> Vec<Vec<(f64, f64)>> {
         let point = |&theta: &f64| {
             let corners = grid.corners(theta, phi)?;
             let value: f64 =
                 corners.iter().map(|&(i, w)| w * f64::from(sample(slab, i, axes.phi.len()))).sum();
             Some((theta.to_degrees(), value.log10()))
         };
-        axes.theta.iter().filter_map(point).filter(|p| p.1.is_finite()).collect()
+        let points: Vec<(f64, f64)> = axes.theta.iter().filter_map(point).collect();
+        let lit = points.split(|p| !p.1.is_finite()).filter(|piece| !piece.is_empty());
+        lit.map(<[_]>::to_vec).collect()
     };
     let curve = |slab: &Slab, &(phi, half): &(f64, &'static str)| Curve {
         wavelength: slab.wavelength,
         phi,
         half,
-        points: points(slab, phi),
+        pieces: pieces(slab, phi),
     };
     let slabs = chosen.iter().map(|&i| &table.slabs[i]);
     slabs
@@ -67,7 +69,8 @@ pub(super) fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), Ren
     if !errors.is_empty() {
         error_strip::draw(&strip, errors, degrees(&axes.theta))?;
     }
-    let y = log_range(curves.iter().flat_map(|c| c.points.iter().map(|p| 10f64.powf(p.1))), 1.0);
+    let lit = curves.iter().flat_map(|c| c.pieces.iter().flatten());
+    let y = log_range(lit.map(|p| 10f64.powf(p.1)), 1.0);
     let mut chart = ChartBuilder::on(&area)
         .caption("phase function by scattering angle, and the stated error", (FONT, 16))
         .margin(12)
@@ -86,11 +89,13 @@ pub(super) fn draw_curves(area: &Area<'_>, table: &PhaseTable) -> Result<(), Ren
         .label_style((FONT, 15))
         .axis_desc_style((FONT, 16))
         .draw()?;
-    for Curve { wavelength, phi, half, points } in curves {
+    for Curve { wavelength, phi, half, pieces } in curves {
         let [r, g, b] = wavelength_srgb(wavelength);
         let color = RGBColor(r, g, b).mix(if phi == 0.0 { 0.8 } else { 0.35 });
+        let lines =
+            pieces.into_iter().map(|points| PathElement::new(points, color.stroke_width(1)));
         chart
-            .draw_series(LineSeries::new(points, color.stroke_width(1)))?
+            .draw_series(lines)?
             .label(format!("{:.0} nm{half}", wavelength * 1e9))
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(3)));
     }
