@@ -239,7 +239,8 @@ impl Errors {
             bands += self.relative(band);
             count += 1.0;
         }
-        if count == 0.0 {
+        // no band is seen, or none has light
+        if count == 0.0 || total == 0.0 {
             return (self.method, self.method);
         }
         (f64::sqrt(squares / total), f64::sqrt(bands / count))

@@ -95,3 +95,14 @@ fn falling_plates_are_their_mirror_images() {
     }
     assert!((off / all).sqrt() < 0.1, "{}", (off / all).sqrt());
 }
+
+/// Where no light is seen the error is that of the method.
+#[test]
+fn darkness_has_the_error_of_the_method() {
+    let mut bands = Band::none();
+    assert_eq!(Errors::new(bands, 0.1).means(), (0.1, 0.1));
+    Band::at(&mut bands, 0.5).add(0.0, 0.0, 3.0);
+    assert_eq!(Errors::new(bands, 0.1).means(), (0.1, 0.1));
+    Band::at(&mut bands, 0.6).add(2.0, 0.0, 3.0);
+    assert!((Errors::new(bands, 0.1).means().0 - 0.1).abs() < 1e-15);
+}
