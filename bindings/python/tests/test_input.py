@@ -37,6 +37,7 @@ import gonio
         (lambda: gonio.Sphere(radius_um=1, medium="watr"), ValueError, "did you mean"),
         (lambda: gonio.Spheroid(radius_um=1), ValueError, "axis_ratio"),
         (lambda: gonio.Crystal(radius_um=1), TypeError, "Crystal is what"),
+        (lambda: gonio.Octahedron("random"), TypeError, "positional"),
         (lambda: gonio.HexagonalColumn(radius_um=20, axis_ratio=100, medium="ice"), ValueError, "0.02 to 50"),
         (lambda: gonio.plan(gonio.HexagonalColumn(radius_um=0.5, axis_ratio=1)), ValueError, "size parameter"),
         (lambda: gonio.Cuboid(radius_um=20, axis_ratio=1, orientation="upwards"), ValueError, "upright"),

@@ -29,7 +29,7 @@ __all__ = [
 Orientation = Literal["upright", "random", "horizontal"] | Mapping[str, Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Crystal(Particle):
     """What all bodies of facets have.
 
