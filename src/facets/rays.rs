@@ -219,7 +219,7 @@ impl TableJob<'_> {
         let limits = Limits { last_order: MOST_CHORDS, least_power: request.settings.least_power };
         let shadow = at.facets.lit(light.direction, lit);
         let rays = if request.stand.is_fixed() { RAYS_OF_ONE } else { RAYS };
-        let (mut told, mut sums) = (0.0, Sums { shadow, extinction: shadow, ..Sums::default() });
+        let mut sums = Sums { shadow, extinction: shadow, ..Sums::default() };
         let mut sent_order = Vec::new();
         for ray in 0..rays {
             let number = index.wrapping_mul(rays).wrapping_add(ray);
@@ -233,7 +233,6 @@ impl TableJob<'_> {
             let rest = at.facets.follow(&light, start, &limits, |sent| {
                 let power = sent.power * area;
                 let way = turn * sent.direction;
-                told += power;
                 sums.scattering += power;
                 sums.forward += power * way.z;
                 sums.polygons += 1.0;

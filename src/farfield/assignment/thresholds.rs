@@ -204,6 +204,9 @@ pub struct Thresholds {
     /// The same within 2° of straight back, where a glory is interference of orders, at a size parameter of 1000; it
     /// grows with the size up to 0.9 (measured: 0.2 point by point at 1000, 0.87 at 4570).
     pub error_of_glory: f64,
+    /// Effective size parameter from which on pictures take drops of many sizes by rays: within some per cent of the
+    /// exact series but for the glory, at a hundredth of its time (validation/population.md).
+    pub pictures_by_rays_from: f64,
     /// Of patches without bows (reflection), and with.
     pub error_of_reflection_by_patches: f64,
     /// The same with bows.
@@ -270,6 +273,7 @@ impl Thresholds {
         error_of_powers: [0.05, 0.015],
         fall_of_powers: 0.85,
         error_of_glory: 0.2,
+        pictures_by_rays_from: 300.0,
         error_of_reflection_by_patches: 0.07,
         error_of_patches: 0.3,
     };

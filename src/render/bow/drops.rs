@@ -216,9 +216,6 @@ impl DropKeys {
     }
 }
 
-/// Effective size parameter from which on drops of many sizes are computed by rays: within some per cent of the exact
-/// series, which takes a hundred times as long.
-const BY_RAYS_FROM: f64 = 300.0;
 /// A wavelength inside the visible, metres.
 const MIDDLE: f64 = 550e-9;
 
@@ -227,13 +224,14 @@ fn by_rays(file: &SceneFile, folder: &Path, scene: &Scene) -> Option<Scene> {
     let choice = file.model.method.is_none_or(|method| method.0 == Method::Auto);
     let many = file.particle.size_distribution.is_some() && file.particles.is_empty();
     let size_parameter = TAU * scene.particle.radius() / MIDDLE;
-    if !(choice && many && size_parameter > BY_RAYS_FROM) {
+    if !(choice && many) {
         return None;
     }
     let mut file = file.clone();
     file.model.method = Some(Choice(Method::Rays));
     let scene = file.validate_in(folder).ok()?;
-    Plan::new(&scene).is_ok().then_some(scene)
+    let plan = Plan::new(&scene).ok()?;
+    (size_parameter > plan.thresholds.pictures_by_rays_from).then_some(scene)
 }
 
 /// Sizes about the radius of a particle.
