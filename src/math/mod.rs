@@ -22,7 +22,9 @@ pub mod scalar;
 mod special;
 pub mod vec3;
 
-pub(crate) use curves::{chebyshev, cosine_series, interpolate, lane_fourier, monotone};
+pub(crate) use curves::{
+    chebyshev, cosine_series, interpolate, lane_fourier, monotone, uneven_fourier,
+};
 pub(crate) use special::{airy, principal_value, riccati_bessel, spherical_harmonics};
 
 /// The golden ratio's fraction: steps of it spread any number of places evenly over 0 to 1.

@@ -142,10 +142,15 @@ impl CoarseGrid {
         &self.cells[i * SPOKES + j]
     }
 
+    /// The row of cells that holds a ring of the sum.
+    pub(super) fn row_of(alpha: f64) -> usize {
+        ((alpha / RING - 0.5).floor().max(0.0) as usize).min(RINGS - 2)
+    }
+
     /// The rows about a ring of the sum.
     pub(super) fn rows(&self, alpha: f64) -> Rows {
         let at = alpha / RING - 0.5;
-        let cell = (at.floor().max(0.0) as usize).min(RINGS - 2);
+        let cell = Self::row_of(alpha);
         let first = (at.floor() as i64 - 2).min((RINGS - STENCIL) as i64);
         Rows { cell, first, weights: lagrange(at - first as f64) }
     }

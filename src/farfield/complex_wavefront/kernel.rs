@@ -118,7 +118,7 @@ impl Column {
         let (along, _) = self.split(s);
         // n·s = R cos(θ - θ₀), above the limit
         let limit = 1.0 - 0.5 * window * window;
-        let radius = along.hypot(s.z);
+        let radius = (along * along + s.z * s.z).sqrt();
         if radius <= limit {
             return;
         }

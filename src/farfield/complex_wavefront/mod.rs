@@ -36,6 +36,7 @@
 
 mod channels;
 mod coarse;
+mod edge_cells;
 mod kernel;
 mod lattice;
 mod sum;

@@ -2,6 +2,7 @@
 
 use super::channels::{Channels, FIELDS, PLACE, Place, by_launch, channels, width};
 use super::coarse::{CoarseGrid, Kind, SPOKES, blend};
+use super::edge_cells::EdgeCells;
 use super::kernel::{Column, Ray};
 use super::lattice::{Lattice, Ring};
 use crate::cancel;
@@ -37,8 +38,9 @@ pub struct ComplexWavefront<'a> {
     place: Place,
     order: u32,
     share: f64,
-    grid: CoarseGrid,
-    lattice: Lattice,
+    pub(super) grid: CoarseGrid,
+    pub(super) lattice: Lattice,
+    pub(super) edges: EdgeCells,
 }
 
 impl<'a> ComplexWavefront<'a> {
@@ -69,7 +71,8 @@ impl<'a> ComplexWavefront<'a> {
         place: Place,
     ) -> Self {
         let lattice = Lattice::new(&grid.steps, Fineness::of_order(order).steps);
-        Self { tracer: tracer.clone(), size_parameter, place, order, share, grid, lattice }
+        let edges = EdgeCells::new(&grid, &lattice);
+        Self { tracer: tracer.clone(), size_parameter, place, order, share, grid, lattice, edges }
     }
 
     /// Its order.
@@ -91,51 +94,72 @@ impl<'a> ComplexWavefront<'a> {
         let window = (2.0 * Fineness::of_order(self.order).cut_off / (x * self.place.imaginary))
             .sqrt()
             .min(2.0);
-        let mut near: Vec<usize> = Vec::with_capacity(columns.len());
-        for ring in &self.lattice.rings {
+        // which columns the rays of each cell of a row come near
+        let mut near: Vec<Vec<usize>> = vec![Vec::with_capacity(columns.len()); SPOKES];
+        let mut row = None;
+        for (k, ring) in self.lattice.rings.iter().enumerate() {
             let rows = self.grid.rows(ring.alpha);
-            cancel::checkpoint();
-            for spoke in 0..SPOKES {
-                let cell = self.grid.cell(rows.cell, spoke);
-                if cell.kind == Kind::Empty {
+            if row != Some(rows.cell) {
+                row = Some(rows.cell);
+                cancel::checkpoint();
+                for (spoke, near) in near.iter_mut().enumerate() {
+                    near.clear();
+                    let cell = self.grid.cell(rows.cell, spoke);
+                    if cell.kind != Kind::Empty {
+                        let reach = cell.radius + window;
+                        let met =
+                            |c: &usize| columns[*c].is_near(cell.centre, reach, [first, last]);
+                        near.extend((0..columns.len()).filter(met));
+                    }
+                }
+            }
+            for (spoke, near) in near.iter().enumerate() {
+                if near.is_empty() {
                     continue;
                 }
-                near.clear();
-                let reach = cell.radius + window;
-                near.extend(
-                    (0..columns.len())
-                        .filter(|&c| columns[c].is_near(cell.centre, reach, [first, last])),
-                );
-                if near.is_empty() {
+                let cell = self.grid.cell(rows.cell, spoke);
+                let mut add = |ray: &Ray| near.iter().for_each(|&c| columns[c].add(ray, window));
+                if cell.kind == Kind::Edge {
+                    let trace = |k: usize, rays: &mut Vec<Ray>| self.traced(k, spoke, rays);
+                    match self.edges.rays((rows.cell, spoke), k, trace) {
+                        Some(rays) => rays.iter().for_each(&mut add),
+                        None => {
+                            let mut rays = Vec::new();
+                            self.traced(k, spoke, &mut rays);
+                            rays.iter().for_each(&mut add);
+                        }
+                    }
                     continue;
                 }
                 let points = ring.points_between(spoke);
                 if points.is_empty() {
                     continue;
                 }
-                // rays of smooth cells, whose wave is narrower than a step of the lattice, stand for no more
-                let narrow = if cell.kind == Kind::Smooth { cell.width / ring.step() } else { 1.0 };
-                let weight = ring.weight * self.share * narrow.min(1.0);
-                let values = (cell.kind == Kind::Smooth).then(|| self.grid.row(&rows, spoke));
+                // rays whose wave is narrower than a step of the lattice stand for no more
+                let weight = ring.weight * self.share * (cell.width / ring.step()).min(1.0);
+                let values = self.grid.row(&rows, spoke);
                 for point in points {
-                    let psi = ring.azimuth(point);
-                    let found = match &values {
-                        Some(values) => Some(blend(values, psi, spoke)),
-                        None => self.traced(ring, psi),
-                    };
-                    let Some(channels) = found else { continue };
-                    let ray = Ray::new(&channels, weight, self.place, x);
-                    for &c in &near {
-                        columns[c].add(&ray, window);
-                    }
+                    let channels = blend(&values, ring.azimuth(point), spoke);
+                    add(&Ray::new(&channels, weight, self.place, x));
                 }
             }
         }
     }
 
+    /// Rays of a ring of the lattice between a spoke and the next, traced one by one.
+    fn traced(&self, ring: usize, spoke: usize, rays: &mut Vec<Ray>) {
+        let ring = &self.lattice.rings[ring];
+        let found = ring.points_between(spoke).filter_map(|point| {
+            let channels = self.channels(ring, ring.azimuth(point))?;
+            let weight = ring.weight * self.share;
+            Some(Ray::new(&channels, weight, self.place, self.size_parameter))
+        });
+        rays.extend(found);
+    }
+
     /// The channels of one ray. Next to total reflection directions run so fast that its wave may be far
     /// narrower than a step of the lattice: it stands for no more than its own width.
-    fn traced(&self, ring: &Ring, psi: f64) -> Option<Channels> {
+    fn channels(&self, ring: &Ring, psi: f64) -> Option<Channels> {
         let (rim, slope) = self.grid.silhouette(psi);
         let place = [rim * ring.alpha.sin() * psi.cos(), rim * ring.alpha.sin() * psi.sin()];
         let exit = self.tracer.trace_order(place[0], place[1], self.order)?;

@@ -1,7 +1,9 @@
 //! The integrand of a rim wave at its samples, and its sums against the waves of a direction.
 
 use crate::math::fused::multiply_add;
+use crate::math::lane_fourier::Row;
 use crate::math::phase::sin_cos_turns_with;
+use crate::math::uneven_fourier;
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use num_complex::Complex64;
@@ -45,6 +47,42 @@ impl Integrand {
         while !self.impact.len().is_multiple_of(LANES) {
             self.push(0.0, 0.0, [Complex64::default(); 4]);
         }
+    }
+
+    /// [`Self::sum`] at many angles, each with the reference path `W` there: all at once where that is faster, then
+    /// within 1e-9 of the sum of sizes.
+    pub(crate) fn sums(&self, angles: &[[f64; 2]], x: f64) -> Vec<Sums> {
+        if !uneven_fourier::pays(self.impact.len(), angles.len()) {
+            return angles.iter().map(|&[angle, path]| self.sum(angle, path, x)).collect();
+        }
+        let [from, path] = angles[angles.len() / 2];
+        let per_turn = x / TAU;
+        let term = |k: usize| {
+            let turns = per_turn * (self.path[k] - self.impact[k] * from - path);
+            let (sin, cos) = sin_cos_turns_with::<false>(turns);
+            let mut row = Row::ZERO;
+            for e in 0..4 {
+                let (re, im) = (self.parts[2 * e][k], self.parts[2 * e + 1][k]);
+                (row.re[e], row.im[e]) = (re * cos - im * sin, re * sin + im * cos);
+                (row.re[4 + e], row.im[4 + e]) =
+                    (row.re[e] * self.impact[k], row.im[e] * self.impact[k]);
+            }
+            row
+        };
+        // samples that fill lanes weigh nothing and lie at no impact
+        let weighs = |k: &usize| self.parts.iter().any(|part| part[*k] != 0.0);
+        let samples: Vec<usize> = (0..self.impact.len()).filter(weighs).collect();
+        let terms: Vec<Row> = samples.iter().map(|&k| term(k)).collect();
+        let frequencies: Vec<f64> = samples.iter().map(|&k| x * self.impact[k]).collect();
+        let offsets: Vec<f64> = angles.iter().map(|[angle, _]| angle - from).collect();
+        let found = uneven_fourier::sums(&frequencies, &terms, &offsets);
+        let turned = |(row, [_, reference]): (&Row, &[f64; 2])| {
+            let (sin, cos) = sin_cos_turns_with::<false>(per_turn * (path - reference));
+            let wave = Complex64::new(cos, sin);
+            let at = |l: usize| wave * Complex64::new(row.re[l], row.im[l]);
+            [std::array::from_fn(at), std::array::from_fn(|e| at(4 + e))]
+        };
+        found.iter().zip(angles).map(turned).collect()
     }
 
     /// `Σ F exp(ix(L - βϑ - W))`, and the same times β.
@@ -109,6 +147,30 @@ fn sum_with<const FMA: bool>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
+
+    /// All angles at once make the sums of each.
+    #[test]
+    fn many_angles_at_once() {
+        let x = 3000.0;
+        let mut integrand = Integrand::with_capacity(400);
+        for k in 0..400 {
+            let t = f64::from(k) / 400.0;
+            let (impact, path) = (0.8 + 0.21 * t - 0.01 * t * t, 1.3 - 0.2 * t + 0.3 * t * t);
+            let element = |e: usize| Complex64::new((t * PI).sin() * e as f64, 1.0 - t * e as f64);
+            integrand.push(impact, path, std::array::from_fn(element));
+        }
+        integrand.fill_lanes();
+        let angles: Vec<[f64; 2]> =
+            (0..500).map(|k| f64::from(k) / 500.0).map(|t| [2.0 + t, 4.0 - 0.9 * t]).collect();
+        assert!(uneven_fourier::pays(400, 500));
+        for (found, &[angle, path]) in integrand.sums(&angles, x).iter().zip(&angles) {
+            let known = integrand.sum(angle, path, x);
+            for (f, k) in found.iter().flatten().zip(known.iter().flatten()) {
+                assert!((f - k).norm() < 1e-6, "{angle}: {f} {k}");
+            }
+        }
+    }
 
     /// Eight lanes and a rest, against the plain sum.
     #[test]

@@ -8,6 +8,7 @@
 //! before the inner of the two rays of the segment's last direction, and goes on to the rim and as far
 //! beyond as waves tunnel, since an end before the rim would be an edge that shines.
 
+use super::integrand::Sums;
 use super::near_grazing::wave_knot;
 use super::prefactor::Prefactor;
 use super::rays::{Rays, TUNNEL};
@@ -171,15 +172,18 @@ pub(crate) fn segment(
     let impact = |node: &Node| node.exit.reference.dot(curve.plane().frame(node.angle).1);
     let mean = 0.5 * (impact(before) + impact(behind));
     let bend = (mean - anchor.impact) / (fold.lit * places.last()?);
-    let knot = |place: &f64| {
+    let reference = |place: &f64| {
         let off = fold.lit * place;
         let angle = fold.angle + off;
-        let path = anchor.path + anchor.impact * (anchor.angle - angle) - 0.5 * bend * off * off;
-        let slope = -anchor.impact - bend * off;
-        let factor = prefactor.towards(angle) / angle.sin().abs().sqrt();
-        wave_knot([angle, path, slope], factor, &integrand.sum(angle, path, x), x)
+        [angle, anchor.path + anchor.impact * (anchor.angle - angle) - 0.5 * bend * off * off]
     };
-    let knots: Vec<_> = places.iter().map(knot).collect();
+    let references: Vec<[f64; 2]> = places.iter().map(reference).collect();
+    let knot = |(&[angle, path], sums): (&[f64; 2], &Sums)| {
+        let slope = -anchor.impact - bend * (angle - fold.angle);
+        let factor = prefactor.towards(angle) / angle.sin().abs().sqrt();
+        wave_knot([angle, path, slope], factor, sums, x)
+    };
+    let knots: Vec<_> = references.iter().zip(&integrand.sums(&references, x)).map(knot).collect();
     knots.iter().all(Knot::is_finite).then_some(Segment { kind: Kind::Wave, knots })
 }
 

@@ -67,15 +67,18 @@ impl<'l> NearGrazing<'l> {
         // towards the rim impacts grow in size
         let sense = self.before.sense;
         let anchor = self.rays.anchor(self.layout.bow);
-        let mut knots = Vec::with_capacity(run.len());
-        for (&[offset, shift], &turned) in run.iter().zip(&turned_paths(run)) {
-            let angle = anchor.angle + offset;
+        let place = |(&[offset, _], turned): (&[f64; 2], f64)| {
             let path = anchor.path - anchor.impact * offset - sense * turned;
+            [anchor.angle + offset, path]
+        };
+        let places: Vec<[f64; 2]> = run.iter().zip(turned_paths(run)).map(place).collect();
+        let sums = self.integrand.sums(&places, x);
+        let knot = |((&[_, shift], &[angle, path]), sums): ((&[f64; 2], &[f64; 2]), &Sums)| {
             let slope = -(anchor.impact + sense * shift);
             let factor = self.before.towards(angle) / angle.sin().abs().sqrt();
-            let sums = self.integrand.sum(angle, path, x);
-            knots.push(wave_knot([angle, path, slope], factor, &sums, x));
-        }
+            wave_knot([angle, path, slope], factor, sums, x)
+        };
+        let knots: Vec<Knot> = run.iter().zip(&places).zip(&sums).map(knot).collect();
         let finite = knots.iter().all(Knot::is_finite);
         finite.then_some(Segment { kind: Kind::Wave, knots })
     }

@@ -40,6 +40,11 @@ impl<const C: usize> Chebyshev<C> {
         Self { from, to, coefficients }
     }
 
+    /// What the polynomials `T_n` of the place from -1 to 1 are multiplied with.
+    pub(crate) fn coefficients(&self) -> &[[f64; C]] {
+        &self.coefficients
+    }
+
     /// Values and derivatives at `x`.
     pub fn at(&self, x: f64) -> ([f64; C], [f64; C]) {
         let half = 0.5 * (self.to - self.from);

@@ -6,3 +6,4 @@ pub mod interpolate;
 pub mod lane_fourier;
 pub mod monotone;
 pub mod spline;
+pub mod uneven_fourier;
