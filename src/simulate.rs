@@ -228,6 +228,7 @@ fn computed_slab(
         left_out,
         closes: true,
         peak_edge: plan.thresholds.peak_edge,
+        order: None,
     };
     let axes = Axes { wavelength: vec![wavelength], theta: scene.theta.clone(), phi: azimuths };
     let Values { values, caustic_order, sum_before_peak, peak_change, peak_share, asymmetry } =

@@ -14,3 +14,10 @@ pub struct Column {
     /// Caustic mask by θ; empty where not known.
     pub caustic_order: Vec<u8>,
 }
+
+impl Column {
+    /// Of amplitudes alone.
+    pub fn of_amplitudes(amplitude: Vec<AmplitudeMatrix>) -> Self {
+        Self { amplitude, incoherent: Vec::new(), rays: Vec::new(), caustic_order: Vec::new() }
+    }
+}

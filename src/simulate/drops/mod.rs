@@ -10,8 +10,9 @@
 
 mod azimuths;
 mod error;
+mod groups;
 mod guided;
-mod one_order;
+mod one_drop;
 mod seen;
 mod slab;
 mod steps;

@@ -2,8 +2,9 @@
 
 use super::azimuths::Azimuths;
 use super::error::band_errors;
+use super::groups::groups;
 use super::guided::DropGuides;
-use super::one_order::Drop;
+use super::one_drop::Drop;
 use super::seen::Seen;
 use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
 use crate::farfield::forward::penumbra_layout::near_axis;
@@ -20,8 +21,8 @@ use ndarray::{Array2, Array3, Axis, s};
 use num_complex::Complex64;
 use std::f64::consts::{PI, TAU};
 
-/// Radii computed at once: their values are held until they are added.
-const AT_ONCE: usize = 8;
+/// Drops computed at once: their values are held until they are added.
+const AT_ONCE: usize = 16;
 
 /// The mean over the sizes of one kind of drops at a wavelength (metres).
 pub(crate) fn slab(
@@ -41,26 +42,29 @@ pub(crate) fn slab(
     let shape = (scene.quantity.elements(), traced.theta.len(), computed.len());
     let mut means = [Array3::zeros(shape), Array3::zeros(shape)];
     let mut sections = [0.0; 2];
-    for part in &steps.parts {
-        let all = radii(sizes, part.stretch, part.steps);
-        for some in all.chunks(AT_ONCE) {
-            let found: Vec<Array3<f32>> = some
-                .par_iter()
-                .map(|at| {
-                    let drop = Drop::new(&traced, plan, at, light)?;
-                    let guides = guides.of(at, part.order);
-                    Ok(drop.order(&traced, part.order, &computed, guides))
-                })
-                .collect::<Result<_, SimulateError>>()?;
-            for (values, at) in found.iter().zip(some) {
-                add(&mut means, values, [at.weight, at.coarse]);
+    let mut drops = groups(sizes, steps.parts.iter());
+    // those that take longest first, so that no thread is left without work
+    drops.sort_by(|a, b| b.at.radius.total_cmp(&a.at.radius));
+    for some in drops.chunks(AT_ONCE) {
+        let found: Vec<Vec<Array3<f32>>> = some
+            .par_iter()
+            .map(|group| {
+                let drop = Drop::new(&traced, plan, &group.at, light)?;
+                let guides = guides.of(&group.at);
+                Ok(drop.orders(&traced, &group.numbers(), &computed, guides))
+            })
+            .collect::<Result<_, SimulateError>>()?;
+        for (orders, group) in found.iter().zip(some) {
+            for (values, (_, weights)) in orders.iter().zip(&group.orders) {
+                add(&mut means, values, *weights);
             }
         }
-        if part.order == plan.orders[0] {
-            let [extinction, absorption] = cross_sections(scene, plan, &all, light)?;
-            sections[0] += extinction;
-            sections[1] += absorption;
-        }
+    }
+    for part in steps.parts.iter().filter(|part| part.order == plan.orders[0]) {
+        let all = radii(sizes, part.stretch, part.steps);
+        let [extinction, absorption] = cross_sections(scene, plan, &all, light)?;
+        sections[0] += extinction;
+        sections[1] += absorption;
     }
     let means = disc.means(means);
     let [extinction, absorption] = sections;

@@ -6,7 +6,8 @@
 
 use super::azimuths::Azimuths;
 use super::error::band_errors;
-use super::one_order::Drop;
+use super::groups::groups;
+use super::one_drop::Drop;
 use super::seen::{Means, Seen};
 use crate::medium::{Light, MediumError};
 use crate::phase_table::Quantity;
@@ -18,7 +19,7 @@ use crate::simulate::error::SimulateError;
 use crate::size_distribution::SizeDistribution;
 use ndarray::{Array3, Axis, s};
 use num_complex::Complex64;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps at first, of orders from this on half as many: they hold less than half a percent of the light.
@@ -151,8 +152,8 @@ impl Steps {
         }
     }
 
-    /// Compute one drop of each order and stretch of radii at the middle wavelength as a table does, `time` it,
-    /// and multiply by how many there are: what a whole wavelength takes.
+    /// Compute one drop of each set of orders and stretch of radii at the middle wavelength as a table does, `time`
+    /// it, and multiply by how many there are: what a whole wavelength takes.
     ///
     /// # Errors
     /// As [`Steps::new`].
@@ -172,17 +173,24 @@ impl Steps {
         let scene = &Seen::new(scene, wavelength, &azimuths).scene(scene);
         let azimuths = azimuths.computed();
         let mut total = 0.0;
-        for part in &self.parts {
-            let (from, to) = part.stretch;
+        for stretch in self.parts.chunk_by(|a, b| a.stretch == b.stretch) {
+            let (from, to) = stretch[0].stretch;
             let middle = Radius { radius: 0.5 * (from + to), place: 0.5, weight: 0.0, coarse: 0.0 };
             let drop = Drop::new(scene, plan, &middle, light)?;
-            let guides = range.and_then(|range| drop.guides(part.order, range));
-            let seconds = time(&mut || {
-                drop.order(scene, part.order, &azimuths, guides.as_ref());
-                Ok(())
-            })?;
-            total += seconds * (part.steps + 1) as f64;
-            if part.order == plan.orders[0] {
+            // drops of the same orders take as long
+            let mut alike: BTreeMap<Vec<u32>, usize> = BTreeMap::new();
+            for group in groups(&sizes_of(scene), stretch.iter()) {
+                *alike.entry(group.numbers()).or_default() += 1;
+            }
+            for (orders, count) in alike {
+                let guides = range.and_then(|range| drop.guides(&orders, range));
+                let seconds = time(&mut || {
+                    drop.orders(scene, &orders, &azimuths, guides.as_ref());
+                    Ok(())
+                })?;
+                total += seconds * count as f64;
+            }
+            for part in stretch.iter().filter(|part| part.order == plan.orders[0]) {
                 let seconds = time(&mut || drop.sections().map(|_| ()))?;
                 total += seconds * (part.steps + 1) as f64;
             }
@@ -227,7 +235,8 @@ impl Tried<'_> {
             let key = (at.radius.to_bits(), at.place.to_bits(), part.order);
             if !self.found.contains_key(&key) {
                 let drop = Drop::new(self.scene, self.plan, &at, (self.wavelength, self.index))?;
-                self.found.insert(key, drop.order(self.scene, part.order, self.azimuths, None));
+                let found = drop.orders(self.scene, &[part.order], self.azimuths, None);
+                self.found.extend(found.into_iter().map(|values| (key, values)));
             }
             add(&mut means, &self.found[&key], [at.weight, at.coarse]);
         }

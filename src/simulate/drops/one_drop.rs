@@ -1,4 +1,4 @@
-//! What one order of one drop scatters, in units of its squared radius.
+//! What each order of one drop scatters, in units of its squared radius.
 
 use super::tilt::Tilt;
 use crate::farfield::assignment::{Assignment, Method};
@@ -52,17 +52,38 @@ impl Drop {
         TAU * self.plan.radius / self.wavelength
     }
 
-    /// `dC/dΩ` over the squared radius of an order (order 0 with forward diffraction), at scattering angles and
-    /// azimuths of a half-turn: one azimuth for all where the drop looks the same from all. By guides to the
-    /// order's planes where there are any.
-    pub fn order(
+    /// `dC/dΩ` over the squared radius of each of some orders (order 0 with forward diffraction), at scattering angles
+    /// and azimuths of a half-turn: one azimuth for all where the drop looks the same from all. By guides to the
+    /// orders' planes where there are any. The rays of all orders are traced together, where every order has a wave of
+    /// its own.
+    pub fn orders(
         &self,
         scene: &Scene,
-        order: u32,
+        orders: &[u32],
         azimuths: &[f64],
         guides: Option<&Guides>,
+    ) -> Vec<Array3<f32>> {
+        let plan = Plan { orders: orders.to_vec(), ..self.plan.clone() };
+        let assignment = self.assignment(&plan, orders);
+        let of_drop = |orders: &[u32]| -> Vec<Array3<f32>> {
+            let plan = Plan { orders: orders.to_vec(), ..self.plan.clone() };
+            let far_field = self.far_field(&plan, orders.contains(&0), guides);
+            orders.iter().map(|&order| self.tabulated(scene, &far_field, order, azimuths)).collect()
+        };
+        if assignment.orders_of(Method::PartialWaves).is_empty() {
+            return of_drop(orders);
+        }
+        orders.iter().flat_map(|&order| of_drop(&[order])).collect()
+    }
+
+    /// One order of a far field.
+    fn tabulated(
+        &self,
+        scene: &Scene,
+        far_field: &FarField,
+        order: u32,
+        azimuths: &[f64],
     ) -> Array3<f32> {
-        let x = self.size_parameter();
         let rotational = self.plan.symmetry == Symmetry::Rotational;
         let seen: Vec<f64> = match rotational {
             true => azimuths[..1].to_vec(),
@@ -70,37 +91,35 @@ impl Drop {
         };
         // what a turned drop shows at an azimuth, it shows upright at another, or its mirror image there
         let (azimuths, places) = self.plan.computed_azimuths(&seen);
-        let diffraction = order == 0;
-        let plan = Plan { orders: vec![order], ..self.plan.clone() };
-        let far_field = self.far_field(&plan, diffraction, guides);
         let tabulator = Tabulator {
             theta: &scene.theta,
-            size_parameter: x,
+            size_parameter: self.size_parameter(),
             quantity: scene.quantity,
             forward_peak: scene.forward_peak,
             interference: true,
             filter: None,
-            diffraction: diffraction.then(|| far_field.forward_wave()),
+            diffraction: (order == 0).then(|| far_field.forward_wave()),
             // values are then in units of the squared radius
             scattering: 1.0,
             shadow_area: far_field.silhouette().area(),
             left_out: 0.0,
             // once, in the mean
             closes: false,
-            peak_edge: plan.thresholds.peak_edge,
+            peak_edge: self.plan.thresholds.peak_edge,
+            order: Some(order),
         };
         let theta = scene.theta.clone();
         let axes = Axes { wavelength: vec![self.wavelength], theta, phi: seen };
-        let Values { values, .. } = tabulator.tabulate(&far_field, &azimuths, &places, &axes);
+        let Values { values, .. } = tabulator.tabulate(far_field, &azimuths, &places, &axes);
         values
     }
 
-    /// Guides to the planes of an order at all indices (real parts) between two, if it has planes.
-    pub fn guides(&self, order: u32, range: [f64; 2]) -> Option<Guides> {
+    /// Guides to the planes of some orders at all indices (real parts) between two, if any has planes.
+    pub fn guides(&self, orders: &[u32], range: [f64; 2]) -> Option<Guides> {
         if self.plan.symmetry == Symmetry::Rotational {
             return None;
         }
-        let orders = self.assignment(&self.plan, &[order]).orders_of(Method::Planes);
+        let orders = self.assignment(&self.plan, orders).orders_of(Method::Planes);
         let guides = || {
             let Plan { shape, tolerance, thresholds, .. } = &self.plan;
             Guides::new(shape, &orders, *tolerance, range, thresholds)
