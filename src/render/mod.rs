@@ -18,6 +18,8 @@ pub mod bow;
 pub mod camera;
 mod directions;
 mod error;
+#[cfg(feature = "hdf5")]
+mod grid;
 mod picture;
 #[cfg(feature = "pictures")]
 mod plots;
@@ -36,5 +38,9 @@ pub use plots::font::{FONT, ensure_font};
 #[cfg(feature = "pictures")]
 pub use plots::preview;
 #[cfg(feature = "pictures")]
+pub(crate) use plots::sheet;
+#[cfg(feature = "pictures")]
 pub use ray_paths::{DrawnRay, draw_ray_paths};
 pub use thinned::Thinned;
+#[cfg(feature = "pictures")]
+pub(crate) use tristimulus::rotational_xyz;
