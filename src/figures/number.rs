@@ -25,11 +25,13 @@ pub struct Number {
 
 /// Digits that are printed.
 const DIGITS: usize = 5;
+/// Below this numbers have a power of ten.
+const SMALL: f64 = 1e-3;
 
 impl Number {
     /// A number that the paper gives.
     pub fn beside(quantity: impl Into<String>, unit: &'static str, paper: f64, ours: f64) -> Self {
-        Self { quantity: quantity.into(), unit, paper: Some(paper), ours }
+        Self { quantity: quantity.into(), unit, paper: Some(paper), ours: ours + 0.0 }
     }
 
     /// A number that the paper does not give.
@@ -45,7 +47,14 @@ impl Number {
     /// Quantity, the paper's, ours and the difference, in words.
     pub fn cells(&self) -> [String; 4] {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
-        let words = |value: f64, digits| format!("{}{unit}", to_digits(value, digits));
+        let words = |value: f64, digits| {
+            // 0 has no sign, and what is small its power of ten
+            let value = to_digits(value, digits) + 0.0;
+            match value.abs() < SMALL && value != 0.0 {
+                true => format!("{value:e}{unit}"),
+                false => format!("{value}{unit}"),
+            }
+        };
         let or_none = |value: Option<f64>, digits| value.map_or("-".into(), |v| words(v, digits));
         [
             self.quantity.clone(),

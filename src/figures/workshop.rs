@@ -8,16 +8,24 @@ use crate::scene::SceneFile;
 use std::path::Path;
 
 /// Keeps what one figure has computed and another needs too.
-#[derive(Default)]
 pub struct Workshop {
     drops: DropStore,
     tell: Option<Box<dyn Fn(String)>>,
 }
 
+/// No picture of a figure sees scattering angles below this, degrees.
+const LEAST_ANGLE: f64 = 80.0;
+
+impl Default for Workshop {
+    fn default() -> Self {
+        Self { drops: DropStore::looking_from(LEAST_ANGLE.to_radians()), tell: None }
+    }
+}
+
 impl Workshop {
     /// A workshop in which `tell` hears what the user should know.
     pub fn telling(tell: impl Fn(String) + 'static) -> Self {
-        Self { drops: DropStore::default(), tell: Some(Box::new(tell)) }
+        Self { tell: Some(Box::new(tell)), ..Self::default() }
     }
 
     /// The scene of a sky.

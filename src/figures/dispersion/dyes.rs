@@ -78,7 +78,7 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
     let panels = vec![
         chart("(a) rose bengal in water, model: n", Axis::linear("n", 1.31, 1.37), indices),
         chart("(b) rose bengal in water, model: k", Axis::linear("k", 0.0, 0.042), extinctions),
-        chart("fuchsine and rhodamine: n", Axis::linear("n", 1.1, 2.2), others),
+        chart("fuchsine and rhodamine: n", Axis::linear("n", 1.1, 2.6), others),
         chart("fuchsine and rhodamine: k", Axis::linear("k", 0.0, 0.9), bands),
     ];
     let notes = [

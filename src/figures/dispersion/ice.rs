@@ -35,9 +35,9 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
             ..Chart::default()
         }),
         Panel::Chart(Chart {
-            title: "(b) extinction coefficient, as printed".into(),
+            title: "(b) extinction coefficient".into(),
             x: x(),
-            y: Axis::linear("k", 0.0, 0.7),
+            y: Axis::linear("k", 0.0, 0.95),
             curves: vec![Curve::new("", RED, points(&um, &k))],
             marks: visible(),
             ..Chart::default()

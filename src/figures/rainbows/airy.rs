@@ -52,13 +52,16 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
         }));
         for (name, from, to) in [("primary", 136.0, 146.0), ("secondary", 121.0, 130.0)] {
             let [exact, ours] = [&mie, &theory].map(|y| maximum(&theta, y, from, to));
-            let words = format!("brightest of the {name}, {mm} mm: Lorenz–Mie, and Airy's theory");
-            numbers.push(Number::beside(words, "°", exact, ours));
+            numbers.push(Number::alone(
+                format!("brightest of the {name} by Lorenz–Mie, {mm} mm"),
+                "°",
+                exact,
+            ));
+            let words = format!("brightest of the {name} by Airy's theory less that, {mm} mm");
+            numbers.push(Number::alone(words, "°", ours - exact));
         }
     }
-    let notes = [
-        "In the column of the paper stands Lorenz–Mie, in ours Airy's theory: both are computed here.",
-    ];
+    let notes = ["Both are computed here; Airy's theory has orders 2 and 3 alone."];
     let title = "Airy's theory beside Lorenz–Mie";
     Ok(Made::new(sheet(title, 2, (620, 420), panels, &notes), numbers))
 }

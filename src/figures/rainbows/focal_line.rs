@@ -140,13 +140,11 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
     };
     // A paraxial beam meets behind a sphere at n/(2(n-1)) from its centre; inside, at n/(n-1) from the vertex.
     let paraxial = focus(1e-3, 1);
-    let numbers = vec![Number::beside(
-        "focus of the first refraction from where light enters, n/(n − 1)",
-        "radii",
-        INDEX / (INDEX - 1.0),
-        paraxial,
-    )];
-    let notes = ["In place of a number of the paper: that of paraxial optics."];
+    let numbers = vec![
+        Number::alone("focus of the first refraction from where light enters", "radii", paraxial),
+        Number::alone("the same by paraxial optics, n/(n − 1)", "radii", INDEX / (INDEX - 1.0)),
+    ];
+    let notes = ["The paper gives no number."];
     let sheet = sheet("Wavefront and focal line", 1, (860, 800), vec![Panel::Chart(chart)], &notes);
     Ok(Made::new(sheet, numbers))
 }

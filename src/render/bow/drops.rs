@@ -318,7 +318,7 @@ pub(super) fn tables(
             (Some(name), _) => Arc::new(crate::hdf5::read(&folder.join(name))?),
             (None, Some(scene)) => {
                 let key = kind.key(&scene)?;
-                store.get(key, || of_scene(kind, &scene, tell))?
+                store.get(key, || of_scene(kind, &scene, store.least(), tell))?
             }
             (None, None) => continue,
         };
@@ -328,7 +328,12 @@ pub(super) fn tables(
 }
 
 /// The table of one kind.
-fn of_scene(kind: &DropKeys, scene: &Scene, tell: &dyn Fn(String)) -> Result<PhaseTable, BowError> {
+fn of_scene(
+    kind: &DropKeys,
+    scene: &Scene,
+    least: f64,
+    tell: &dyn Fn(String),
+) -> Result<PhaseTable, BowError> {
     let parts = scene.parts();
     parts.iter().flat_map(|part| part.medium.notes()).for_each(tell);
     let sizes = scene.size_distribution.as_ref();
@@ -342,7 +347,7 @@ fn of_scene(kind: &DropKeys, scene: &Scene, tell: &dyn Fn(String)) -> Result<Pha
                  flattened drops and of many sizes"
             )));
         }
-        return sphere(&scene.medium, scene.particle.radius(), scene.quantity);
+        return sphere(&scene.medium, scene.particle.radius(), scene.quantity, least);
     }
     Ok(simulate::table(scene)?)
 }

@@ -21,9 +21,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Debug, Default)]
 pub struct DropStore {
     tables: Mutex<HashMap<String, Arc<PhaseTable>>>,
+    /// Least scattering angle of spheres, radians.
+    least: f64,
 }
 
 impl DropStore {
+    /// A store for pictures that see no scattering angle below this (radians): spheres are computed from there on.
+    pub fn looking_from(least: f64) -> Self {
+        Self { least, ..Self::default() }
+    }
+
+    /// Where tables of spheres begin unless that is later.
+    pub(super) fn least(&self) -> f64 {
+        self.least
+    }
+
     /// Tables held.
     pub fn len(&self) -> usize {
         self.tables.lock().unwrap_or_else(PoisonError::into_inner).len()

@@ -59,7 +59,18 @@ impl Axis {
             false => values,
         };
         let every = values.len().div_ceil(most.max(2)).max(1);
-        values.into_iter().step_by(every).map(|value| (value, self.words(value))).collect()
+        // of even steps those that are multiples of the wider step, 0 among them
+        let step = match values.as_slice() {
+            [first, second, ..] if !self.logarithmic => second - first,
+            _ => 0.0,
+        };
+        let kept = |(i, value): (usize, &f64)| match step > 0.0 {
+            true => (value / step).round() as i64 % every as i64 == 0,
+            false => i % every == 0,
+        };
+        let kept: Vec<f64> =
+            values.iter().enumerate().filter(|&(i, v)| kept((i, v))).map(|(_, v)| *v).collect();
+        kept.into_iter().map(|value| (value, self.words(value))).collect()
     }
 
     fn words(&self, value: f64) -> String {
@@ -100,7 +111,7 @@ mod tests {
         );
         assert_eq!(words(Axis::logarithmic("", 0.1, 1.0), 9)[..2], ["0.1", "0.2"]);
         assert_eq!(words(Axis::linear("", -1.0, 1.0), 20)[0], "−1");
-        assert!(words(Axis::linear("", 0.0, 1.0), 4).len() <= 4);
+        assert_eq!(words(Axis::linear("", -3.0, 3.0), 4), ["−2", "0", "2"]);
     }
 
     #[test]

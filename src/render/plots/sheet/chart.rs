@@ -97,7 +97,8 @@ impl Chart {
         size: (u32, u32),
     ) -> Drawn<B> {
         pen.words(&self.title, (corner.0 + EDGE, corner.1 + 4), 15, INK)?;
-        let frame = self.frame(corner, size);
+        let room = self.room(corner, size);
+        let frame = if self.equal { self.squared(room) } else { room };
         self.draw_strips(pen, frame)?;
         self.draw_grid(pen, frame)?;
         let shares = |(x, y): (f64, f64)| (self.x.share(x), self.y.share(y));
@@ -111,11 +112,11 @@ impl Chart {
         pen.frame([(frame.left, frame.top), (frame.right, frame.bottom)], GREY)?;
         self.draw_words(pen, frame)?;
         let top = frame.bottom + BELOW;
-        legend::draw(pen, &self.curves, (frame.left, top), frame.right - frame.left)
+        legend::draw(pen, &self.curves, (room.left, top), room.right - room.left)
     }
 
     /// The room for curves within a panel.
-    fn frame(&self, (x, y): Place, (width, height): (u32, u32)) -> Frame {
+    fn room(&self, (x, y): Place, (width, height): (u32, u32)) -> Frame {
         let (width, height) = (width as i32, height as i32);
         let widest = |words: Vec<(f64, String)>| {
             words.iter().map(|(_, text)| width_of(text, TICKS)).max().unwrap_or(0)
@@ -125,8 +126,7 @@ impl Chart {
         let right = x + width - EDGE - names.unwrap_or(14);
         let top = y + TITLE + (STRIP.0 + STRIP.1) * self.strips.len() as i32 + 4;
         let below = BELOW + legend::height(&self.curves, right - left);
-        let frame = Frame { left, right, top, bottom: y + height - below - EDGE };
-        if self.equal { self.squared(frame) } else { frame }
+        Frame { left, right, top, bottom: y + height - below - EDGE }
     }
 
     /// The largest frame within one in which one unit is as long along both axes.
@@ -224,7 +224,7 @@ mod tests {
             equal: true,
             ..Chart::default()
         };
-        let frame = chart.frame((0, 0), (600, 500));
+        let frame = chart.squared(chart.room((0, 0), (600, 500)));
         let (a, b) = (frame.pixel((0.0, 0.0)), frame.pixel((1.0, 1.0)));
         let (across, up) = (f64::from(b.0 - a.0) / 6.0, f64::from(a.1 - b.1) / 2.0);
         assert!((across / up - 1.0).abs() < 0.02, "{across} {up}");
@@ -233,11 +233,11 @@ mod tests {
     /// Strips and legend take their room from the chart, not from each other.
     #[test]
     fn room_is_shared_out() {
-        let bare = Chart::default().frame((0, 0), (600, 400));
+        let bare = Chart::default().room((0, 0), (600, 400));
         let strip = Strip { name: "all".into(), colours: vec![[9; 3]] };
         let curves = vec![Curve::new("one", [0; 3], [])];
         let full = Chart { strips: vec![strip.clone(), strip], curves, ..Chart::default() };
-        let full = full.frame((0, 0), (600, 400));
+        let full = full.room((0, 0), (600, 400));
         assert!(full.top == bare.top + 2 * (STRIP.0 + STRIP.1) && full.bottom < bare.bottom);
     }
 }
