@@ -64,7 +64,7 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
             Ok(Panel::Chart(Chart {
                 title: title.into(),
                 x: Axis::linear("scattering angle (°)", 0.0, 180.0),
-                y: Axis::logarithmic("phase function (sr⁻¹)", 1e-5, 1e3),
+                y: Axis::logarithmic("phase function (sr⁻¹)", 1e-6, 1e3),
                 curves,
                 ..Chart::default()
             }))

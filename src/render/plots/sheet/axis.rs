@@ -77,7 +77,7 @@ impl Axis {
         let power = value.abs().log10();
         let whole = (power - power.round()).abs() < 1e-9;
         match self.logarithmic {
-            true if whole && !(-2.5..4.5).contains(&power) => power_of_ten(power.round() as i32),
+            true if whole && !(-3.5..4.5).contains(&power) => power_of_ten(power.round() as i32),
             true if (self.to / self.from).log10() > MANY_DECADES && whole => {
                 power_of_ten(power.round() as i32)
             }
