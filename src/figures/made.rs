@@ -2,7 +2,7 @@
 
 use super::error::FigureError;
 use super::number::Number;
-use crate::render::sheet::Sheet;
+use crate::render::plots::sheet::Sheet;
 
 /// A figure that is made.
 #[derive(Clone, Debug)]

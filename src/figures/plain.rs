@@ -1,6 +1,6 @@
 //! Small things that figures of all kinds need: colours, angles, circles.
 
-use crate::render::sheet::{Curve, Foot, Panel, Sheet};
+use crate::render::plots::sheet::{Curve, Foot, Panel, Sheet};
 use std::f64::consts::TAU;
 
 /// Colours that stay apart for colour-blind readers (Okabe & Ito 2008).

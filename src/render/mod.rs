@@ -22,7 +22,7 @@ mod error;
 mod grid;
 mod picture;
 #[cfg(feature = "pictures")]
-mod plots;
+pub(crate) mod plots;
 #[cfg(feature = "pictures")]
 mod ray_paths;
 pub mod sky;
@@ -37,8 +37,6 @@ pub use plots::color_diagram::ColorDiagram;
 pub use plots::font::{FONT, ensure_font};
 #[cfg(feature = "pictures")]
 pub use plots::preview;
-#[cfg(feature = "pictures")]
-pub(crate) use plots::sheet;
 #[cfg(feature = "pictures")]
 pub use ray_paths::{DrawnRay, draw_ray_paths};
 pub use thinned::Thinned;

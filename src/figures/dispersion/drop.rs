@@ -8,7 +8,7 @@ use crate::figures::plain::{BLUE, RED, evenly, maximum, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::lee::{Polarisation, Request, spheres};
 use crate::optics::rainbow_angle;
-use crate::render::sheet::{Axis, Chart, Curve, Panel, Strip};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel, Strip};
 
 pub(super) const DYED_DROP: Figure = Figure {
     name: "weidlich-drop",

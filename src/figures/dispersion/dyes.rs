@@ -5,7 +5,7 @@ use crate::figures::media::{curve, medium};
 use crate::figures::papers;
 use crate::figures::plain::{BLACK, PALETTE, evenly, maximum, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 
 pub(super) const FIG_4: Figure = Figure {
     name: "weidlich-4",

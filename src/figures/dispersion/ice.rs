@@ -5,7 +5,7 @@ use crate::figures::media::{curve, medium};
 use crate::figures::papers;
 use crate::figures::plain::{BLUE, RED, by_factors, maximum, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Mark, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Mark, Panel};
 
 pub(super) const FIG_2: Figure = Figure {
     name: "weidlich-2",

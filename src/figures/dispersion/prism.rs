@@ -7,7 +7,7 @@ use crate::figures::papers;
 use crate::figures::plain::{PALETTE, evenly, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::medium::Medium;
-use crate::render::sheet::{Axis, Chart, Curve, Panel, Strip};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel, Strip};
 use std::f64::consts::PI;
 
 pub(super) const FIG_1: Figure = Figure {

@@ -5,7 +5,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREEN, ORANGE, RED, evenly, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::medium::kramers_kronig::{Absorption, Between, Tails, maclaurin};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 use std::f64::consts::PI;
 
 pub(super) const TRUNCATION: Figure = Figure {

@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREY, RED, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::medium::{AbbeLines, list};
-use crate::render::sheet::{Axis, Chart, Curve, Label, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Label, Panel};
 
 pub(super) const DIAGRAM: Figure = Figure {
     name: "glass-abbe",

@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::{PALETTE, evenly, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::medium::{AbbeLines, abbe_to_sellmeier};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 
 pub(super) const CURVES: Figure = Figure {
     name: "glass-cauchy",

@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLUE, GREY, RED, evenly, points, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::medium::{AbbeLines, fit_cauchy};
-use crate::render::sheet::{Axis, Chart, Curve, Mark, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Mark, Panel};
 
 pub(super) const FIRE: Figure = Figure {
     name: "glass-diamond",

@@ -4,7 +4,7 @@ use crate::figures::FigureError;
 use crate::figures::media::medium;
 use crate::figures::plain::{BLUE, GREY, ORANGE, RED, WATER, disc};
 use crate::medium::radial::Body;
-use crate::render::sheet::{Axis, Chart, Curve};
+use crate::render::plots::sheet::{Axis, Chart, Curve};
 use crate::trace::RadialRays;
 
 /// A sphere by what a scene says of its profile.

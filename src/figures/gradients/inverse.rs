@@ -5,7 +5,7 @@ use crate::figures::figure::Figure;
 use crate::figures::papers;
 use crate::figures::plain::{BLUE, GREEN, GREY, PURPLE, RED, SKY, WATER, disc, evenly, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 use crate::trace::{Chord, RadialRays};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::sheet;
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::optics::fresnel;
-use crate::render::sheet::{Axis, Chart, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Panel};
 use crate::trace::{Chord, RadialRays};
 use std::f64::consts::PI;
 

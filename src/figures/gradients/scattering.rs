@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, evenly, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::medium::radial::Body;
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 use crate::series::layered::Layered;
 use std::f64::consts::PI;
 

@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, RED, evenly, maximum, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::lee::{Diagram, Polarisation, airy_spheres, spheres};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 
 pub(super) const STRIPS: Figure = Figure {
     name: "airy",

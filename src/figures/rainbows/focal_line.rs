@@ -4,7 +4,7 @@ use crate::figures::figure::Figure;
 use crate::figures::papers;
 use crate::figures::plain::{GREEN, GREY, RED, WATER, disc, evenly, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 
 pub(super) const FIG_4: Figure = Figure {
     name: "sadeghi-4",

@@ -4,7 +4,7 @@ use crate::figures::figure::Figure;
 use crate::figures::papers;
 use crate::figures::plain::{BLACK, GREY, ORANGE, RED, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Label, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Label, Panel};
 use crate::shape::Shape;
 use crate::trace::Tracer;
 

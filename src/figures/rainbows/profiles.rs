@@ -4,7 +4,7 @@ use crate::figures::figure::Figure;
 use crate::figures::papers;
 use crate::figures::plain::{BLUE, PALETTE, WATER, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Foot, Panel, Sheet};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Foot, Panel, Sheet};
 use crate::shape::{RaindropModel, Shape};
 use std::f64::consts::TAU;
 

@@ -5,7 +5,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREY, PURPLE, RED, WATER, disc, evenly, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::optics::rainbow_angle;
-use crate::render::sheet::{Axis, Chart, Curve, Label, Mark, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Label, Mark, Panel};
 use crate::series::airy::AiryBow;
 use crate::shape::Shape;
 use crate::trace::{PlaneRay, SymmetryPlane, Tracer};

@@ -7,7 +7,7 @@ use crate::figures::figure::Figure;
 use crate::figures::papers;
 use crate::figures::plain::{BLACK, ORANGE, RED, evenly, maximum, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 use crate::scene::{Choice, Grid, Method, SceneFile, ShapeName};
 use crate::simulate;
 use crate::sun_disc::smooth_over_sun;

@@ -6,7 +6,7 @@ use crate::figures::plain::sheet;
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::render::Picture;
 use crate::render::bow::BowScene;
-use crate::render::sheet::{PICTURE_HEAD, Panel};
+use crate::render::plots::sheet::{PICTURE_HEAD, Panel};
 use crate::scene::{Choice, ShapeName};
 use crate::shape::{RaindropModel, Shape};
 use crate::trace::{SymmetryPlane, Tracer};

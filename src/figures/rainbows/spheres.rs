@@ -8,7 +8,7 @@ use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::lee::{Diagram, PEAK, Polarisation, column_exposures, spheres};
 use crate::optics::rainbow_angle;
 use crate::render::ColorDiagram;
-use crate::render::sheet::{Axis, Chart, Curve, Mark, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Mark, Panel};
 
 pub(super) const FIG_5: Figure = Figure {
     name: "sadeghi-5",

@@ -7,7 +7,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREEN, ORANGE, PURPLE, evenly, maximum, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::phase_table::PhaseTable;
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 use crate::scene::{Choice, Diffraction, Grid, Interference, Method, Orders, SceneFile};
 use crate::simulate;
 use std::f64::consts::PI;

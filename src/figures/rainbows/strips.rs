@@ -5,8 +5,8 @@ use crate::figures::FigureError;
 use crate::lee::Request;
 use crate::medium::MediumSpec;
 use crate::phase_table::PhaseTable;
+use crate::render::plots::sheet::Strip;
 use crate::render::rotational_xyz;
-use crate::render::sheet::Strip;
 use std::path::Path;
 
 /// Luminance of the brightest place of a strip.

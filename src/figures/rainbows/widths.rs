@@ -6,7 +6,7 @@ use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREEN, RED, by_factors, evenly, sheet};
 use crate::figures::{FigureError, Made, Number, Workshop};
 use crate::math::airy::ai;
-use crate::render::sheet::{Axis, Chart, Curve, Panel};
+use crate::render::plots::sheet::{Axis, Chart, Curve, Panel};
 use crate::series::airy::AiryBow;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
