@@ -63,21 +63,12 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
                 colour: BLACK,
             });
         }
-        if let Some((n, v)) = entry.catalogue {
-            if NAMED.contains(&&*entry.name) {
-                numbers.push(Number::beside(
-                    format!("{}: n_d (catalogue)", entry.name),
-                    "",
-                    n,
-                    abbe.index,
-                ));
-                numbers.push(Number::beside(
-                    format!("{}: V_d (catalogue)", entry.name),
-                    "",
-                    v,
-                    abbe.number,
-                ));
-            }
+        if let Some((n, v)) = entry.catalogue.filter(|_| NAMED.contains(&&*entry.name)) {
+            let number = |what: &str, catalogue, ours| {
+                Number::beside(format!("{}: {what} (catalogue)", entry.name), "", catalogue, ours)
+            };
+            numbers.push(number("n_d", n, abbe.index));
+            numbers.push(number("V_d", v, abbe.number));
         }
     }
     let glass = medium("N-BK7")?;

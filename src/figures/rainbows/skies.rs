@@ -134,8 +134,11 @@ fn phenomena(workshop: &Workshop) -> Result<Made, FigureError> {
     Ok(gallery("Kinds of rainbows", 3, panels, Vec::new(), &[]))
 }
 
-/// Table III as printed: radius in mm, field of view in degrees, lens, background, intensity in %.
-const TABLE_III: [(&str, &str, f64, f64, &str, [u8; 3], f64); 6] = [
+/// A column of Table III: scene, what it shows, radius in mm, field of view in degrees, lens, background, intensity in %.
+type Column = (&'static str, &'static str, f64, f64, &'static str, [u8; 3], f64);
+
+/// Table III as printed.
+const TABLE_III: [Column; 6] = [
     ("sadeghi_12a", "double bow", 0.4, 20.0, "rectilinear", [107, 114, 118], 55.0),
     ("sadeghi_12b", "full double bow", 0.4, 100.0, "fisheye", [183, 202, 212], 100.0),
     ("sadeghi_12c", "supernumeraries", 0.3, 30.0, "rectilinear", [172, 172, 172], 90.0),

@@ -143,7 +143,7 @@ fn thinned(mut pixels: Vec<Place>) -> Vec<Place> {
         }
         let by = |best: fn(&&(usize, &Place), &&(usize, &Place)) -> std::cmp::Ordering| {
             let all: Vec<(usize, &Place)> = column.iter().enumerate().collect();
-            all.iter().min_by(|a, b| best(a, b)).map_or(0, |found| found.0)
+            all.iter().min_by(best).map_or(0, |found| found.0)
         };
         let mut places =
             vec![0, by(|a, b| a.1.1.cmp(&b.1.1)), by(|a, b| b.1.1.cmp(&a.1.1)), column.len() - 1];
