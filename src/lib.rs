@@ -29,7 +29,7 @@
 //! and the references of scenes and files are pages of [`docs`].
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
-//! `cli` · `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
+//! `cli` · `figures`, `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
 //! `farfield`, [`facets`], [`radar`] · `series`, `export` · `hdf5`, [`population`] · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
 //! `medium`, `shape`, `color`, `size_distribution`, [`cancel`] · `math`, `pending_file`, [`fault`].
 //!
@@ -78,6 +78,8 @@ pub mod scatter;
 pub mod render;
 
 pub mod compare;
+#[cfg(all(feature = "hdf5", feature = "pictures"))]
+pub mod figures;
 
 #[cfg(any(doc, doctest, test))]
 pub mod docs;

@@ -11,7 +11,7 @@ const FLOORS: [(u32, &[&str]); 13] = [
     (12, &["main", "cli"]),
     // The pages for people, built for the documentation and tests alone.
     (11, &["docs"]),
-    (10, &["compare"]),
+    (10, &["compare", "figures"]),
     // A picture's drops are sampled as those of a Lee diagram.
     (9, &["render"]),
     (8, &["lee", "batch", "scatter"]),

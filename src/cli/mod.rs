@@ -12,8 +12,8 @@ mod units;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use commands::{
-    batch, bench, compare, export, info, lee, material, plan, radar, rays, render, scatter, scenes,
-    shell, table, validate,
+    batch, bench, compare, export, figure, info, lee, material, plan, radar, rays, render, scatter,
+    scenes, shell, table, validate,
 };
 use failure::{Failure, Result};
 use std::process::ExitCode;
@@ -53,6 +53,7 @@ enum Command {
     Lee(lee::LeeArgs),
     Compare(compare::CompareArgs),
     Render(render::RenderArgs),
+    Figure(figure::FigureArgs),
     Batch(batch::BatchArgs),
     Bench(bench::BenchArgs),
     Scenes(scenes::ScenesArgs),
@@ -93,6 +94,7 @@ fn run(command: Command) -> Result<()> {
         Command::Lee(args) => lee::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Render(args) => render::run(args),
+        Command::Figure(args) => figure::run(args),
         Command::Batch(args) => batch::run(args),
         Command::Bench(args) => bench::run(args),
         Command::Scenes(args) => scenes::list(&args),

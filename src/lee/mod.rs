@@ -27,6 +27,7 @@
 //! ```
 
 mod about_axis;
+mod airy;
 mod columns;
 mod diagram;
 #[cfg(feature = "hdf5")]
@@ -37,6 +38,7 @@ pub(crate) mod sampling;
 mod wavelengths;
 
 pub use crate::optics::Polarisation;
+pub use airy::airy_spheres;
 pub use columns::{Bodies, columns};
 pub use diagram::{Diagram, PEAK, column_exposures, srgb};
 pub use raindrops::{HIGHEST_ORDER, Raindrops};

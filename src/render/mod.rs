@@ -18,9 +18,11 @@ pub mod bow;
 pub mod camera;
 mod directions;
 mod error;
+#[cfg(feature = "hdf5")]
+mod grid;
 mod picture;
 #[cfg(feature = "pictures")]
-mod plots;
+pub(crate) mod plots;
 #[cfg(feature = "pictures")]
 mod ray_paths;
 pub mod sky;
@@ -38,3 +40,5 @@ pub use plots::preview;
 #[cfg(feature = "pictures")]
 pub use ray_paths::{DrawnRay, draw_ray_paths};
 pub use thinned::Thinned;
+#[cfg(feature = "pictures")]
+pub(crate) use tristimulus::rotational_xyz;

@@ -79,5 +79,6 @@ pub fn facets(
         diffraction_included: true,
         remainder: None,
         worth: Some(worth),
+        bows: Vec::new(),
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! Where [`simulate`](crate::simulate) makes tables of a scene, this answers for single directions and
 //! takes what it is told: an index, a size parameter, orders. [`lorenz_mie`] and [`debye`] serve spheres,
-//! [`layered`] those that vary along the radius, [`rays`] any shape, [`t_matrix`] bodies of revolution, [`facets()`] crystals. Efficiencies refer to the sphere of equal volume.
+//! [`airy()`] their bows alone by the classical theory, [`layered`] those that vary along the radius, [`rays`] any shape, [`t_matrix`] bodies of revolution, [`facets()`] crystals. Efficiencies refer to the sphere of equal volume.
 //!
 //! ```
 //! use gonio::scatter::{Request, lorenz_mie};
@@ -22,6 +22,7 @@
 //! assert!((4e-4 * seen.amplitudes[0].s1.re / budget.q_ext - 1.0).abs() < 1e-9);
 //! ```
 
+mod airy;
 mod facets;
 mod rays;
 mod scene;
@@ -29,6 +30,7 @@ mod series;
 mod size;
 mod tmatrix;
 
+pub use airy::airy;
 pub use facets::facets;
 pub use rays::{RayDiffraction, RayRequest, rays};
 pub use scene::of_scene;
@@ -37,6 +39,7 @@ pub use size::{Size, SizeConflict};
 pub use tmatrix::t_matrix;
 
 use crate::farfield::ErrorEstimate;
+use crate::farfield::assignment::AiryRange;
 use crate::fault::{Blame, Fault};
 use crate::medium::MediumError;
 use crate::optics::AmplitudeMatrix;
@@ -74,6 +77,8 @@ pub struct Scattering {
     pub remainder: Option<Remainder>,
     /// How far intensities by rays or a T-matrix may be from the truth.
     pub worth: Option<ErrorEstimate>,
+    /// Where Airy's theory stands for the bows of orders, and how far it may be off; empty for other methods.
+    pub bows: Vec<AiryRange>,
 }
 
 /// What a sum over Debye's terms leaves out.
@@ -112,6 +117,12 @@ pub enum ScatterError {
          a table, or leave both out"
     )]
     RaysAlone,
+    /// Airy's theory of an order that has no bow, or is not served.
+    #[error(
+        "orders = {order}: Airy's theory is here for the bows of orders 2 and 3, where rays turn back; at an index of {index} \
+         order {order} is none of them"
+    )]
+    NoBow { order: u32, index: f64 },
     /// Share of the light.
     #[error("energy does not add up: {0:e} of the light is unaccounted for")]
     Energy(f64),
@@ -124,9 +135,10 @@ impl Blame for ScatterError {
             ScatterError::Series(error) => error.fault(),
             ScatterError::TMatrix(error) => error.fault(),
             ScatterError::Simulate(error) => error.fault(),
-            ScatterError::Medium(_) | ScatterError::Several | ScatterError::RaysAlone => {
-                Fault::Input
-            }
+            ScatterError::Medium(_)
+            | ScatterError::Several
+            | ScatterError::RaysAlone
+            | ScatterError::NoBow { .. } => Fault::Input,
             ScatterError::Energy(_) => Fault::Run,
         }
     }

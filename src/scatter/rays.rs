@@ -97,6 +97,7 @@ pub fn rays(request: &Request, particle: &RayRequest) -> Result<Scattering, Scat
         diffraction_included,
         remainder: None,
         worth: Some(worth),
+        bows: Vec::new(),
     })
 }
 

@@ -32,6 +32,7 @@ pub fn lorenz_mie(request: &Request) -> Result<Scattering, SeriesError> {
         diffraction_included: true,
         remainder: None,
         worth: None,
+        bows: Vec::new(),
     })
 }
 
@@ -48,6 +49,7 @@ pub fn layered(request: &Request, body: &Body) -> Result<Scattering, SeriesError
         diffraction_included: true,
         remainder: None,
         worth: None,
+        bows: Vec::new(),
     })
 }
 
@@ -81,7 +83,14 @@ pub fn debye(request: &Request, terms: &DebyeTerms) -> Result<Scattering, Series
         }
     });
     let efficiencies = Sphere::new(request.size_parameter, request.index)?.efficiencies();
-    Ok(Scattering { amplitudes, efficiencies, diffraction_included, remainder, worth: None })
+    Ok(Scattering {
+        amplitudes,
+        efficiencies,
+        diffraction_included,
+        remainder,
+        worth: None,
+        bows: Vec::new(),
+    })
 }
 
 fn diagonal(pairs: Vec<(Complex64, Complex64)>) -> Vec<AmplitudeMatrix> {

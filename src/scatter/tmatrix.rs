@@ -26,6 +26,7 @@ pub fn t_matrix(request: &Request, shape: &Shape) -> Result<Scattering, TMatrixE
         diffraction_included: true,
         remainder: None,
         worth: Some(ErrorEstimate { weighted, by_band, by_direction, straight_back }),
+        bows: Vec::new(),
     })
 }
 

@@ -1,7 +1,8 @@
 //! Exact series for spheres: Lorenz–Mie, its Debye expansion, and spheres that are not homogeneous.
 //!
 //! Both give partial-wave coefficients a_n, b_n ([`lorenz_mie`], [`debye`], [`layered`]); [`angular`] sums
-//! them over the angles; [`mean`] averages over sizes and wavelengths.
+//! them over the angles; [`mean`] averages over sizes and wavelengths. [`airy`] is no series: the classical theory of the
+//! rainbow, to be compared with them.
 //!
 //! ```
 //! use gonio::series::lorenz_mie::Sphere;
@@ -12,6 +13,7 @@
 //! # Ok::<(), gonio::series::SeriesError>(())
 //! ```
 
+pub mod airy;
 pub mod angular;
 mod behind;
 mod curves;

@@ -7,6 +7,7 @@ mod support;
 mod batch_contract;
 mod batch_resume;
 mod cli_bad_input;
+mod figures;
 mod hostile_input;
 mod layers;
 mod medium_cli;

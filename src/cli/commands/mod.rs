@@ -4,6 +4,7 @@ pub mod batch;
 pub mod bench;
 pub mod compare;
 pub mod export;
+pub mod figure;
 pub mod info;
 pub mod lee;
 pub mod material;

@@ -50,6 +50,9 @@ pub struct RenderArgs {
     /// Polarising filter: angle of its axis from the horizontal
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     polariser_deg: Option<f64>,
+    /// Circles of 42° and 51° about the antisolar point, it, and the horizon, with their names
+    #[arg(long)]
+    grid: bool,
     /// Light: D65, A, E, D50, 5778K, sun, sun-ground, sun@DEGREES
     #[arg(long)]
     illuminant: Option<String>,
@@ -74,6 +77,7 @@ pub fn run(args: RenderArgs) -> Result<()> {
     lay(&args.azimuth_deg, &mut scene.camera.azimuth_deg);
     lay(&args.sun_elevation_deg, &mut scene.sun.elevation_deg);
     lay(&args.polariser_deg, &mut scene.filter.polariser_deg);
+    scene.camera.grid |= args.grid;
     scene.camera.width = args.width.or(scene.camera.width);
     scene.camera.height = args.height.or(scene.camera.height);
     scene.camera.lens = args.lens.clone().or(scene.camera.lens);

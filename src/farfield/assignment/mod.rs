@@ -24,6 +24,7 @@
 //! # Ok::<(), gonio::shape::ShapeError>(())
 //! ```
 
+mod airy;
 mod assigned;
 mod judge;
 mod method;
@@ -31,6 +32,7 @@ pub(crate) mod near_grazing_taper;
 mod rim;
 mod thresholds;
 
+pub use airy::AiryRange;
 pub use assigned::{Assigned, Outcome, PlanesOutcome};
 pub(crate) use judge::caustic_disorder;
 pub use method::{Formula, FormulaRange, Method, Reason, Spacing};

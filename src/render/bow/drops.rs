@@ -5,6 +5,7 @@
 
 use super::error::BowError;
 use super::sphere::sphere;
+use super::store::DropStore;
 use crate::phase_table::{PhaseTable, Quantity};
 use crate::plan::{Engine, Plan, Symmetry};
 use crate::population::bulk;
@@ -16,6 +17,7 @@ use crate::simulate;
 use serde::Deserialize;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// One kind of drops of a picture: a table, the scene of one, or the keys of a particle.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -216,6 +218,19 @@ impl DropKeys {
     }
 }
 
+impl DropKeys {
+    /// What makes the table of a scene another one: all of it, but the sun's place where that is no matter.
+    fn key(&self, scene: &Scene) -> Result<String, BowError> {
+        let mut scene = scene.clone();
+        if Plan::new(&scene)?.symmetry == Symmetry::Rotational {
+            scene.sun_elevation = 0.0;
+        }
+        // the record of the scene has the sun's place too
+        scene.toml.clear();
+        Ok(format!("{:?} {:?} {scene:?}", self.wavelengths, self.tolerance))
+    }
+}
+
 /// A wavelength inside the visible, metres.
 const MIDDLE: f64 = 550e-9;
 
@@ -263,8 +278,9 @@ pub(super) fn tables(
     kinds: &[DropKeys],
     folder: &Path,
     wanted: Wanted,
+    store: &DropStore,
     tell: &dyn Fn(String),
-) -> Result<Vec<(PhaseTable, f64)>, BowError> {
+) -> Result<Vec<(Arc<PhaseTable>, f64)>, BowError> {
     if kinds.is_empty() {
         let message = "drops: none given; add [[drops]] to the scene, or --table FILE.h5";
         return Err(BowError::Keys(message.into()));
@@ -299,8 +315,11 @@ pub(super) fn tables(
     for (kind, (scene, number)) in kinds.iter().zip(scenes) {
         let (Number::Relative(number) | Number::Absolute(number)) = number;
         let table = match (&kind.table, scene) {
-            (Some(name), _) => crate::hdf5::read(&folder.join(name))?,
-            (None, Some(scene)) => of_scene(kind, &scene, tell)?,
+            (Some(name), _) => Arc::new(crate::hdf5::read(&folder.join(name))?),
+            (None, Some(scene)) => {
+                let key = kind.key(&scene)?;
+                store.get(key, || of_scene(kind, &scene, store.least(), tell))?
+            }
             (None, None) => continue,
         };
         out.push((table, number));
@@ -309,7 +328,12 @@ pub(super) fn tables(
 }
 
 /// The table of one kind.
-fn of_scene(kind: &DropKeys, scene: &Scene, tell: &dyn Fn(String)) -> Result<PhaseTable, BowError> {
+fn of_scene(
+    kind: &DropKeys,
+    scene: &Scene,
+    least: f64,
+    tell: &dyn Fn(String),
+) -> Result<PhaseTable, BowError> {
     let parts = scene.parts();
     parts.iter().flat_map(|part| part.medium.notes()).for_each(tell);
     let sizes = scene.size_distribution.as_ref();
@@ -323,7 +347,7 @@ fn of_scene(kind: &DropKeys, scene: &Scene, tell: &dyn Fn(String)) -> Result<Pha
                  flattened drops and of many sizes"
             )));
         }
-        return sphere(&scene.medium, scene.particle.radius(), scene.quantity);
+        return sphere(&scene.medium, scene.particle.radius(), scene.quantity, least);
     }
     Ok(simulate::table(scene)?)
 }

@@ -62,6 +62,8 @@ pub struct CameraKeys {
     pub elevation_deg: Option<f64>,
     /// Of the optical axis from the antisolar direction, to the right, degrees.
     pub azimuth_deg: Option<f64>,
+    /// Draw circles of 42° and 51° about the antisolar point, it, and the horizon, with their names.
+    pub grid: bool,
 }
 
 /// How much rain there is.

@@ -7,17 +7,21 @@ mod drops;
 mod error;
 mod keys;
 mod sphere;
+mod store;
 
 pub use drops::DropKeys;
 pub use error::BowError;
 pub use keys::{BowScene, CameraKeys, FilterKeys, RainKeys, SkyKeys, SunKeys};
+pub use store::DropStore;
 
 use super::Picture;
 use super::camera::Camera;
+use super::grid::draw_grid;
 use super::sky::{Drops, RainShape, Sky, render};
 use crate::color::decode_srgb;
 use crate::phase_table::PhaseTable;
 use std::path::Path;
+use std::sync::Arc;
 
 /// The sun where neither the scene nor a table says it, degrees above the horizon.
 const USUAL_SUN: f64 = 20.0;
@@ -31,6 +35,19 @@ impl BowScene {
     /// # Errors
     /// Keys that make no sense, told before drops are computed; tables that do not fit the picture.
     pub fn draw(&self, folder: &Path, tell: &dyn Fn(String)) -> Result<Picture, BowError> {
+        self.draw_sharing(&DropStore::default(), folder, tell)
+    }
+
+    /// The same with drops that other pictures have too, which are computed once.
+    ///
+    /// # Errors
+    /// As [`Self::draw`].
+    pub fn draw_sharing(
+        &self,
+        store: &DropStore,
+        folder: &Path,
+        tell: &dyn Fn(String),
+    ) -> Result<Picture, BowError> {
         let polarised = self.filter.polariser_deg.is_some();
         let asked = self.sun.elevation_deg;
         let usual = asked.unwrap_or(USUAL_SUN);
@@ -41,7 +58,7 @@ impl BowScene {
             sun_disc: self.sun.disc.unwrap_or(true),
             polarised,
         };
-        let tables = drops::tables(&self.drops, folder, wanted, tell)?;
+        let tables = drops::tables(&self.drops, folder, wanted, store, tell)?;
         let read = self.drops.iter().any(|kind| kind.table.is_some());
         if let Some(note) = note_on_disc(&tables, self.sun.disc).filter(|_| read) {
             tell(note);
@@ -58,8 +75,11 @@ impl BowScene {
         let camera = self.camera(elevation)?;
         let drops: Vec<Drops<'_>> =
             tables.iter().map(|(table, number)| Drops { table, number: *number }).collect();
-        let drawn = render(&camera, &sky, &drops)?;
+        let mut drawn = render(&camera, &sky, &drops)?;
         note_on_reach(&tables, drawn.untold).into_iter().for_each(tell);
+        if self.camera.grid {
+            draw_grid(&mut drawn.picture, &camera, elevation)?;
+        }
         Ok(drawn.picture)
     }
 
@@ -115,7 +135,7 @@ impl BowScene {
 }
 
 /// Says where the sun's disc is in a table already, so that the picture leaves it alone.
-fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) -> Option<String> {
+fn note_on_disc(tables: &[(Arc<PhaseTable>, f64)], asked: Option<bool>) -> Option<String> {
     let there = tables.iter().any(|(table, _)| table.header.averaging.has_sun_disc());
     there.then(|| {
         let wish = match asked {
@@ -130,7 +150,7 @@ fn note_on_disc(tables: &[(PhaseTable, f64)], asked: Option<bool>) -> Option<Str
 const UNTOLD: f64 = 1e-3;
 
 /// Says that the camera sees scattering angles which the tables lack.
-fn note_on_reach(tables: &[(PhaseTable, f64)], untold: f64) -> Option<String> {
+fn note_on_reach(tables: &[(Arc<PhaseTable>, f64)], untold: f64) -> Option<String> {
     let ends = |end: fn(&[f64]) -> Option<&f64>| {
         tables.iter().filter_map(move |(table, _)| end(&table.header.axes.theta).copied())
     };
@@ -147,7 +167,7 @@ fn note_on_reach(tables: &[(PhaseTable, f64)], untold: f64) -> Option<String> {
 }
 
 /// Refuses a sun elsewhere than where the table of a drop that is no sphere has it.
-fn check_sun(elevation: f64, tables: &[(PhaseTable, f64)]) -> Result<(), BowError> {
+fn check_sun(elevation: f64, tables: &[(Arc<PhaseTable>, f64)]) -> Result<(), BowError> {
     let given = elevation.to_degrees();
     let suns = tables.iter().map(|(table, _)| &table.header);
     let bound = suns.filter(|header| !header.rotational_symmetry);

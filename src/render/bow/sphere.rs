@@ -19,13 +19,15 @@ const MOST: usize = 300;
 /// Scattering angles, degrees; nearer to the sun nobody looks.
 const FROM: f64 = 2.0;
 
-/// A sphere by Lorenz–Mie, sampled so that its ripple averages out over the sun's disc.
+/// A sphere by Lorenz–Mie from a least scattering angle (radians) on, sampled so that its ripple averages out over the
+/// sun's disc.
 pub(super) fn sphere(
     medium: &Medium,
     radius: f64,
     quantity: Quantity,
+    least: f64,
 ) -> Result<PhaseTable, BowError> {
-    let (from, to) = (FROM.to_radians(), PI);
+    let (from, to) = (FROM.to_radians().max(least), PI);
     let sampling = Sampling::new(&SamplingNeed {
         radius,
         index: medium.index(550e-9)?.re,

@@ -4,4 +4,5 @@ pub mod color_diagram;
 pub mod font;
 pub mod heat_map;
 pub mod preview;
+pub mod sheet;
 mod ticks;

@@ -20,6 +20,9 @@ pub struct LeeArgs {
     /// Spheres by Lorenz–Mie, raindrops by rays
     #[arg(long, value_enum, default_value = "sphere")]
     pub(super) shape: LeeShape,
+    /// The exact series or rays by the shape, or Airy's theory of both bows (spheres)
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(super) method: LeeMethod,
     /// Radii FROM:TO:COUNT, log-spaced, or FROM:TO:sSTEP, evenly
     #[arg(long, value_name = "MM", default_value = "0.01:1:400")]
     pub(super) radius_mm: String,
@@ -66,4 +69,11 @@ pub struct LeeArgs {
 pub(super) enum LeeShape {
     Sphere,
     Raindrop,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum LeeMethod {
+    Auto,
+    /// Orders 2 and 3 alone, by the classical theory of the rainbow
+    Airy,
 }

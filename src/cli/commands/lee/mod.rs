@@ -10,7 +10,7 @@ use crate::cli::args::ranges;
 use crate::cli::command_line::command_line;
 use crate::cli::failure::{Failure, Result};
 use crate::cli::show::{notes, progress};
-use args::LeeShape;
+use args::{LeeMethod, LeeShape};
 use gonio::lee::file::{About, save};
 use gonio::lee::{Bodies, Diagram, PEAK, Raindrops, Request, column_exposures, columns, srgb};
 use gonio::medium::MediumSpec;
@@ -59,9 +59,15 @@ fn usage(message: impl Into<String>) -> Failure {
 }
 
 fn bodies(args: &LeeArgs) -> Result<Bodies> {
-    Ok(match args.shape {
-        LeeShape::Sphere => Bodies::Spheres,
-        LeeShape::Raindrop => Bodies::Raindrops(Raindrops::new(
+    Ok(match (args.shape, args.method) {
+        (LeeShape::Sphere, LeeMethod::Auto) => Bodies::Spheres,
+        (LeeShape::Sphere, LeeMethod::Airy) => Bodies::Airy,
+        (LeeShape::Raindrop, LeeMethod::Airy) => {
+            return Err(usage(
+                "--method airy: Airy's theory is of spheres; raindrops go by --method auto",
+            ));
+        }
+        (LeeShape::Raindrop, LeeMethod::Auto) => Bodies::Raindrops(Raindrops::new(
             MediumSpec::parse(&args.medium)?,
             args.sun_elevation_deg,
             args.azimuth_deg.to_radians(),

@@ -1,6 +1,6 @@
 //! The diagram as a picture: what its title says, and the bows of ray optics beside it.
 
-use super::args::{LeeArgs, LeeShape};
+use super::args::{LeeArgs, LeeMethod, LeeShape};
 use crate::cli::args::polarisation::PolarisationFlag;
 use crate::cli::args::ranges::radii;
 use crate::cli::command_line::command_line;
@@ -20,6 +20,9 @@ pub fn draw(
     path: &Path,
 ) -> Result<()> {
     let shape = match args.shape {
+        LeeShape::Sphere if args.method == LeeMethod::Airy => {
+            "spheres, Airy's theory of both bows".to_string()
+        }
         LeeShape::Sphere => "spheres, Lorenz–Mie".to_string(),
         LeeShape::Raindrop => format!(
             "raindrops: rays, orders 0 to {HIGHEST_ORDER}, small ones spheres; sun at {}°, azimuth {}°{}",

@@ -13,6 +13,8 @@ pub(super) enum MethodName {
     Debye,
     /// Exact for bodies of revolution
     Tmatrix,
+    /// The classical theory of the primary and the secondary bow of spheres
+    Airy,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

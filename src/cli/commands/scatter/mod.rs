@@ -37,6 +37,13 @@ pub fn run(args: ScatterArgs) -> Result<()> {
         }
         MethodName::Rays => rays(&args, &job)?,
         MethodName::Tmatrix => scatter::t_matrix(&job.request, &shape(&args, &job)?)?,
+        MethodName::Airy => {
+            sphere_only(&args)?;
+            if job.terms.diffraction {
+                return Err(usage("--orders diffraction: a term of --method debye only"));
+            }
+            scatter::airy(&job.request, job.terms.orders.as_deref())?
+        }
     };
     let seconds = start.elapsed().as_secs_f64();
     spinner.finish_and_clear();
@@ -60,10 +67,11 @@ fn one_index_only(args: &ScatterArgs) -> Failure {
         MethodName::Debye => "debye",
         MethodName::Mie => "mie",
         MethodName::Tmatrix => "tmatrix",
+        MethodName::Airy => "airy",
     };
     usage(format!(
         "--method {method}: layers, profiles and films are solved by --method mie, for spheres; rays, Debye \
-         terms and the T-matrix follow one index inside"
+         terms, Airy's theory and the T-matrix follow one index inside"
     ))
 }
 
@@ -210,7 +218,7 @@ fn sphere_only(args: &ScatterArgs) -> Result<()> {
         return Ok(());
     }
     Err(usage(
-        "--method mie and debye serve spheres only: use --method rays or tmatrix for this shape",
+        "--method mie, debye and airy serve spheres only: use --method rays or tmatrix for this shape",
     ))
 }
 

@@ -3,6 +3,7 @@
 use super::args::{Job, MethodName, ScatterArgs};
 use crate::cli::show::notes;
 use gonio::farfield::ErrorEstimate;
+use gonio::farfield::assignment::AiryRange;
 use gonio::optics::AmplitudeMatrix;
 use gonio::plan::{DOUBTFUL_PHASE_SHIFT, phase_shift};
 use gonio::scatter::{Request, Scattering};
@@ -18,6 +19,7 @@ pub(super) fn note(args: &ScatterArgs, job: &Job, seen: &Scattering) {
             left.last_order, left.share
         )]);
     }
+    notes::tell(seen.bows.iter().map(ToString::to_string));
     let Some(worth) = seen.worth else { return };
     let phase_shift = phase_shift(job.request.index, job.request.size_parameter);
     if args.method == MethodName::Rays && phase_shift < DOUBTFUL_PHASE_SHIFT {
@@ -70,6 +72,7 @@ pub(super) fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds:
             MethodName::Mie => "mie",
             MethodName::Debye => "debye",
             MethodName::Tmatrix => "tmatrix",
+            MethodName::Airy => "airy",
         },
         "size_parameter": job.request.size_parameter,
         "index": [absolute.re, absolute.im],
@@ -92,6 +95,18 @@ pub(super) fn to_json(args: &ScatterArgs, job: &Job, seen: &Scattering, seconds:
         "remainder_share": seen.remainder.map(|left| left.share),
         "seconds": seconds,
     });
+    if !seen.bows.is_empty() {
+        let bow = |range: &AiryRange| {
+            json!({
+                "order": range.order,
+                "bow_deg": range.bow.to_degrees(),
+                "theta_deg": range.theta.map(f64::to_degrees),
+                "expected_error": range.expected_error,
+                "reason": range.to_string(),
+            })
+        };
+        value["airy"] = seen.bows.iter().map(bow).collect();
+    }
     if args.made_of.outside.is_some() {
         value["relative_index"] = json!([job.request.index.re, job.request.index.im]);
     }
