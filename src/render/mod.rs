@@ -18,6 +18,7 @@ pub mod bow;
 pub mod camera;
 mod directions;
 mod error;
+pub mod layer;
 mod picture;
 #[cfg(feature = "pictures")]
 mod plots;

@@ -30,3 +30,4 @@ mod shared_rays;
 mod stress;
 mod tmatrix;
 mod trace_physics;
+mod transfer;

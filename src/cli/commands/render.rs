@@ -5,7 +5,7 @@ use crate::cli::command_line::command_line;
 use crate::cli::failure::Result;
 use crate::cli::show::{notes, progress};
 use clap::Args;
-use gonio::render::bow::{BowScene, DropKeys};
+use gonio::render::bow::{BowScene, DropKeys, RainKeys};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -50,6 +50,18 @@ pub struct RenderArgs {
     /// Polarising filter: angle of its axis from the horizontal
     #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
     polariser_deg: Option<f64>,
+    /// A layer of this optical depth, in which light is scattered many times, in place of the rain
+    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
+    layer_optical_depth: Option<f64>,
+    /// Where the layer is: curtain (upright before the observer), above or below
+    #[arg(long, value_name = "PLACE")]
+    layer_place: Option<String>,
+    /// Share of light that the ground behind the layer throws back
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    ground_albedo: Option<f64>,
+    /// How often light is scattered in the layer: auto, single or multiple
+    #[arg(long)]
+    scattering: Option<String>,
     /// Light: D65, A, E, D50, 5778K, sun, sun-ground, sun@DEGREES
     #[arg(long)]
     illuminant: Option<String>,
@@ -74,6 +86,14 @@ pub fn run(args: RenderArgs) -> Result<()> {
     lay(&args.azimuth_deg, &mut scene.camera.azimuth_deg);
     lay(&args.sun_elevation_deg, &mut scene.sun.elevation_deg);
     lay(&args.polariser_deg, &mut scene.filter.polariser_deg);
+    lay(&args.layer_optical_depth, &mut scene.layer.optical_depth);
+    lay(&args.ground_albedo, &mut scene.layer.ground_albedo);
+    if args.layer_optical_depth.is_some() {
+        // the flag is a wish for a layer: it takes the place of the scene's rain
+        scene.rain = RainKeys::default();
+    }
+    scene.layer.place = args.layer_place.clone().or(scene.layer.place);
+    scene.layer.scattering = args.scattering.clone().or(scene.layer.scattering);
     scene.camera.width = args.width.or(scene.camera.width);
     scene.camera.height = args.height.or(scene.camera.height);
     scene.camera.lens = args.lens.clone().or(scene.camera.lens);

@@ -6,15 +6,17 @@
 mod drops;
 mod error;
 mod keys;
+mod plan;
 mod sphere;
 
 pub use drops::DropKeys;
 pub use error::BowError;
-pub use keys::{BowScene, CameraKeys, FilterKeys, RainKeys, SkyKeys, SunKeys};
+pub use keys::{BowScene, CameraKeys, FilterKeys, LayerKeys, RainKeys, SkyKeys, SunKeys};
 
 use super::Picture;
 use super::camera::Camera;
-use super::sky::{Drops, RainShape, Sky, render};
+use super::layer::{LayerLight, LayerSky, Place};
+use super::sky::{Drops, RainShape, Sky, render_layer};
 use crate::color::decode_srgb;
 use crate::phase_table::PhaseTable;
 use std::path::Path;
@@ -36,10 +38,12 @@ impl BowScene {
         let usual = asked.unwrap_or(USUAL_SUN);
         self.sky(usual.to_radians())?;
         self.camera(usual.to_radians())?;
+        self.layer(usual.to_radians())?;
         let wanted = drops::Wanted {
             sun_elevation_deg: usual,
             sun_disc: self.sun.disc.unwrap_or(true),
             polarised,
+            layer: self.layer.optical_depth.is_some(),
         };
         let tables = drops::tables(&self.drops, folder, wanted, tell)?;
         let read = self.drops.iter().any(|kind| kind.table.is_some());
@@ -58,7 +62,17 @@ impl BowScene {
         let camera = self.camera(elevation)?;
         let drops: Vec<Drops<'_>> =
             tables.iter().map(|(table, number)| Drops { table, number: *number }).collect();
-        let drawn = render(&camera, &sky, &drops)?;
+        let layer = match self.layer(elevation)? {
+            Some(layer) => {
+                let kinds: Vec<_> = tables.iter().map(|(table, number)| (table, *number)).collect();
+                let eye = (sky.illuminant, sky.observer);
+                let solved = LayerLight::new(&layer, elevation, eye, &kinds)?;
+                solved.notes.iter().cloned().for_each(tell);
+                Some(solved)
+            }
+            None => None,
+        };
+        let drawn = render_layer(&camera, &sky, &drops, layer.as_ref())?;
         note_on_reach(&tables, drawn.untold).into_iter().for_each(tell);
         Ok(drawn.picture)
     }
@@ -81,6 +95,37 @@ impl BowScene {
         Ok(camera)
     }
 
+    /// The layer, if there is one.
+    pub(super) fn layer(&self, sun_elevation: f64) -> Result<Option<LayerSky>, BowError> {
+        let keys = &self.layer;
+        if *keys == LayerKeys::default() {
+            return Ok(None);
+        }
+        let rain = [
+            ("optical_depth", self.rain.optical_depth.map(|depth| depth.to_string())),
+            ("shape", self.rain.shape.as_ref().map(|shape| format!("\"{shape}\""))),
+        ];
+        if let Some((key, Some(value))) = rain.into_iter().find(|(_, value)| value.is_some()) {
+            return Err(BowError::Keys(format!(
+                "rain.{key} = {value} with [layer]: the layer takes the place of the rain; keep one"
+            )));
+        }
+        let Some(optical_depth) = keys.optical_depth else {
+            let message = "layer.optical_depth: none given; a number above 0 is needed, along the layer's normal";
+            return Err(BowError::Keys(message.into()));
+        };
+        let place = keys.place.as_deref().map_or(Ok(Place::default()), str::parse)?;
+        let usual = LayerSky::new(optical_depth, place);
+        let layer = LayerSky {
+            ground_albedo: keys.ground_albedo.unwrap_or(usual.ground_albedo),
+            scattering: keys.scattering.as_deref().map_or(Ok(usual.scattering), str::parse)?,
+            streams: keys.streams.unwrap_or(usual.streams),
+            ..usual
+        };
+        layer.check(sun_elevation)?;
+        Ok(Some(layer))
+    }
+
     /// What is behind and around the drops.
     fn sky(&self, sun_elevation: f64) -> Result<Sky, BowError> {
         let degrees = sun_elevation.to_degrees();
@@ -96,6 +141,8 @@ impl BowScene {
                 return Err(BowError::Keys(message));
             }
         };
+        // a layer has light of its own beside the bow
+        let behind = if self.layer.optical_depth.is_some() { [0; 3] } else { [107, 114, 118] };
         let linear = |rgb: [u8; 3]| rgb.map(|v| decode_srgb(f64::from(v) / 255.0));
         Ok(Sky {
             sun_elevation,
@@ -104,7 +151,7 @@ impl BowScene {
             observer: self.sun.observer.as_deref().unwrap_or("1931").parse()?,
             rain,
             optical_depth: self.rain.optical_depth.unwrap_or(1.0),
-            background: linear(self.sky.background.unwrap_or([107, 114, 118])),
+            background: linear(self.sky.background.unwrap_or(behind)),
             ground: self.sky.ground.map(linear),
             brightness: self.sky.brightness.unwrap_or(0.45),
             exposure: self.sky.exposure,
