@@ -19,6 +19,8 @@ pub mod camera;
 mod directions;
 mod error;
 pub mod layer;
+mod linear_picture;
+pub mod photo;
 mod picture;
 #[cfg(feature = "pictures")]
 mod plots;
@@ -29,6 +31,7 @@ mod thinned;
 mod tristimulus;
 
 pub use error::RenderError;
+pub use linear_picture::LinearPicture;
 pub use picture::{Picture, write_complete};
 #[cfg(feature = "pictures")]
 pub use plots::color_diagram::ColorDiagram;

@@ -12,6 +12,7 @@
 use super::camera::Camera;
 use super::error::RenderError;
 use super::layer::{LayerLight, Place};
+use super::linear_picture::LinearPicture;
 use super::picture::Picture;
 use super::tristimulus::Tristimulus;
 use crate::color::{
@@ -128,6 +129,56 @@ pub fn render_layer(
     drops: &[Drops<'_>],
     layer: Option<&LayerLight>,
 ) -> Result<Drawn, RenderError> {
+    let pixels = seen(camera, sky, drops, layer)?;
+    let peak = brightest(&pixels);
+    let usual = if peak > 0.0 { sky.brightness / peak } else { 0.0 };
+    let exposure = sky.exposure.unwrap_or(usual);
+    let mut picture = Picture::new(camera.width, camera.height);
+    for (rgb, pixel) in picture.rgb.chunks_exact_mut(3).zip(&pixels) {
+        rgb.copy_from_slice(&pixel.srgb(sky, exposure, layer));
+    }
+    let rain = pixels.iter().filter(|p| matches!(p, Pixel::Rain { .. })).count();
+    let untold = pixels.iter().filter(|p| p.is_untold()).count();
+    Ok(Drawn { picture, untold: untold as f64 / rain as f64 })
+}
+
+/// The light of the bow alone, linear sRGB per irradiance of the sun, and the luminance of its brightest place.
+///
+/// # Errors
+/// As [`render`].
+pub fn light(
+    camera: &Camera,
+    sky: &Sky,
+    drops: &[Drops<'_>],
+    layer: Option<&LayerLight>,
+) -> Result<(LinearPicture, f64), RenderError> {
+    let pixels = seen(camera, sky, drops, layer)?;
+    let of = |pixel: &Pixel| match pixel {
+        Pixel::Rain { bow: Some(xyz), .. } => xyz_to_linear_srgb(*xyz).map(|v| v as f32),
+        _ => [0.0; 3],
+    };
+    let rgb = pixels.iter().flat_map(of).collect();
+    Ok((LinearPicture { width: camera.width, height: camera.height, rgb }, brightest(&pixels)))
+}
+
+/// Luminance of the brightest pixel: the bow is what the picture is about; light from near the sun may burn out.
+fn brightest(pixels: &[Pixel]) -> f64 {
+    let most = |behind: bool| {
+        pixels.iter().fold(0.0_f64, |most, pixel| match pixel {
+            Pixel::Rain { bow: Some(xyz), back, .. } if *back || !behind => most.max(xyz[1]),
+            _ => most,
+        })
+    };
+    if most(true) > 0.0 { most(true) } else { most(false) }
+}
+
+/// What all pixels see.
+fn seen(
+    camera: &Camera,
+    sky: &Sky,
+    drops: &[Drops<'_>],
+    layer: Option<&LayerLight>,
+) -> Result<Vec<Pixel>, RenderError> {
     camera.validate()?;
     check(sky, drops)?;
     let mixture = Mixture::new(sky, drops)?;
@@ -158,24 +209,7 @@ pub fn render_layer(
             accepted: accepted.into(),
         });
     }
-    let exposure = sky.exposure.unwrap_or_else(|| {
-        // The bow is what the picture is about; light from near the sun may burn out.
-        let brightest = |behind: bool| {
-            pixels.iter().fold(0.0_f64, |most, pixel| match pixel {
-                Pixel::Rain { bow: Some(xyz), back, .. } if *back || !behind => most.max(xyz[1]),
-                _ => most,
-            })
-        };
-        let peak = if brightest(true) > 0.0 { brightest(true) } else { brightest(false) };
-        if peak > 0.0 { sky.brightness / peak } else { 0.0 }
-    });
-    let mut picture = Picture::new(camera.width, camera.height);
-    for (rgb, pixel) in picture.rgb.chunks_exact_mut(3).zip(&pixels) {
-        rgb.copy_from_slice(&pixel.srgb(sky, exposure, layer));
-    }
-    let rain = pixels.iter().filter(|p| matches!(p, Pixel::Rain { .. })).count();
-    let untold = pixels.iter().filter(|p| p.is_untold()).count();
-    Ok(Drawn { picture, untold: untold as f64 / rain as f64 })
+    Ok(pixels)
 }
 
 /// What one pixel sees.

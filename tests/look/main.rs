@@ -7,6 +7,7 @@ mod tables;
 
 mod look_bows;
 mod look_compare;
+mod look_layer;
 mod look_lee;
 mod look_preview;
 mod look_report;

@@ -31,3 +31,4 @@ mod stress;
 mod tmatrix;
 mod trace_physics;
 mod transfer;
+mod transfer_monte_carlo;

@@ -86,6 +86,14 @@ impl DropKeys {
         Self { table: Some(path.to_string_lossy().into_owned()), ..Self::default() }
     }
 
+    /// Spheres of a radius (metres) and a spread of ln(radius).
+    pub fn spheres(radius: f64, spread: f64) -> Self {
+        let mut kind = Self { size_spread: (spread > 1e-4).then_some(spread), ..Self::default() };
+        kind.particle.shape = Some(Choice(ShapeName::Sphere));
+        kind.particle.radius_um = Some(1e6 * radius);
+        kind
+    }
+
     /// Refuses keys that contradict each other.
     fn check(&self) -> Result<(), BowError> {
         let refuse = |message: String| Err(BowError::Keys(message));

@@ -13,16 +13,30 @@ pub use drops::DropKeys;
 pub use error::BowError;
 pub use keys::{BowScene, CameraKeys, FilterKeys, LayerKeys, RainKeys, SkyKeys, SunKeys};
 
-use super::Picture;
 use super::camera::Camera;
 use super::layer::{LayerLight, LayerSky, Place};
-use super::sky::{Drops, RainShape, Sky, render_layer};
+use super::sky::{Drops, RainShape, Sky, light, render_layer};
+use super::{LinearPicture, Picture};
 use crate::color::decode_srgb;
 use crate::phase_table::PhaseTable;
 use std::path::Path;
 
 /// The sun where neither the scene nor a table says it, degrees above the horizon.
 const USUAL_SUN: f64 = 20.0;
+/// What a picture is drawn of.
+struct Made {
+    tables: Vec<(PhaseTable, f64)>,
+    sky: Sky,
+    camera: Camera,
+    layer: Option<LayerLight>,
+}
+
+impl Made {
+    fn drops(&self) -> Vec<Drops<'_>> {
+        self.tables.iter().map(|(table, number)| Drops { table, number: *number }).collect()
+    }
+}
+
 /// Degrees, as people round them.
 const ROUNDING: f64 = 0.01;
 
@@ -33,6 +47,35 @@ impl BowScene {
     /// # Errors
     /// Keys that make no sense, told before drops are computed; tables that do not fit the picture.
     pub fn draw(&self, folder: &Path, tell: &dyn Fn(String)) -> Result<Picture, BowError> {
+        let made = self.made(folder, tell)?;
+        let drawn = render_layer(&made.camera, &made.sky, &made.drops(), made.layer.as_ref())?;
+        note_on_reach(&made.tables, drawn.untold).into_iter().for_each(tell);
+        Ok(drawn.picture)
+    }
+
+    /// The light of the bow alone, and the luminance of its brightest place.
+    ///
+    /// # Errors
+    /// As [`BowScene::draw`].
+    pub fn light(
+        &self,
+        folder: &Path,
+        tell: &dyn Fn(String),
+    ) -> Result<(LinearPicture, f64), BowError> {
+        let made = self.made(folder, tell)?;
+        Ok(light(&made.camera, &made.sky, &made.drops(), made.layer.as_ref())?)
+    }
+
+    /// The camera of the keys, for the sun at an elevation (radians).
+    ///
+    /// # Errors
+    /// Keys that make no camera.
+    pub fn camera_for(&self, sun_elevation: f64) -> Result<Camera, BowError> {
+        self.camera(sun_elevation)
+    }
+
+    /// All that is drawn.
+    fn made(&self, folder: &Path, tell: &dyn Fn(String)) -> Result<Made, BowError> {
         let polarised = self.filter.polariser_deg.is_some();
         let asked = self.sun.elevation_deg;
         let usual = asked.unwrap_or(USUAL_SUN);
@@ -60,8 +103,6 @@ impl BowScene {
         check_sun(elevation, &tables)?;
         let sky = self.sky(elevation)?;
         let camera = self.camera(elevation)?;
-        let drops: Vec<Drops<'_>> =
-            tables.iter().map(|(table, number)| Drops { table, number: *number }).collect();
         let layer = match self.layer(elevation)? {
             Some(layer) => {
                 let kinds: Vec<_> = tables.iter().map(|(table, number)| (table, *number)).collect();
@@ -72,9 +113,7 @@ impl BowScene {
             }
             None => None,
         };
-        let drawn = render_layer(&camera, &sky, &drops, layer.as_ref())?;
-        note_on_reach(&tables, drawn.untold).into_iter().for_each(tell);
-        Ok(drawn.picture)
+        Ok(Made { tables, sky, camera, layer })
     }
 
     /// The camera, which looks at the top of the primary bow unless told otherwise.

@@ -1,18 +1,22 @@
 //! `gonio render`: a picture of a rainbow.
 
+mod over;
+
 use crate::cli::args::output::Output;
 use crate::cli::command_line::command_line;
 use crate::cli::failure::Result;
 use crate::cli::show::{notes, progress};
 use clap::Args;
 use gonio::render::bow::{BowScene, DropKeys, RainKeys};
+use over::OverArgs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Picture of a rainbow, from a scene file or from a table
 #[derive(Args)]
 #[command(after_help = "Examples: gonio render data/scenes/bows/double.toml -o bow.png
-          gonio render --table raindrop.h5 --fov-deg 60 -o bow.png")]
+          gonio render --table raindrop.h5 --fov-deg 60 -o bow.png
+          gonio render data/scenes/bows/double.toml --over photo.jpg --horizon-px 900 --fit -o bow.png")]
 pub struct RenderArgs {
     /// Scene of a picture; without one, --table
     #[arg(value_name = "SCENE.toml", required_unless_present = "table")]
@@ -65,6 +69,8 @@ pub struct RenderArgs {
     /// Light: D65, A, E, D50, 5778K, sun, sun-ground, sun@DEGREES
     #[arg(long)]
     illuminant: Option<String>,
+    #[command(flatten)]
+    over: OverArgs,
 }
 
 pub fn run(args: RenderArgs) -> Result<()> {
@@ -99,9 +105,16 @@ pub fn run(args: RenderArgs) -> Result<()> {
     scene.camera.lens = args.lens.clone().or(scene.camera.lens);
     scene.sun.illuminant = args.illuminant.clone().or(scene.sun.illuminant);
 
-    let spinner = progress::spinner("drops and sky");
-    let picture = scene.draw(drop_folder, &|note| spinner.suspend(|| notes::tell([note])))?;
-    spinner.finish_and_clear();
+    let picture = match args.over.photograph() {
+        Some(photo) => args.over.draw(photo, &mut scene, drop_folder, args.fov_deg)?,
+        None => {
+            let spinner = progress::spinner("drops and sky");
+            let picture =
+                scene.draw(drop_folder, &|note| spinner.suspend(|| notes::tell([note])))?;
+            spinner.finish_and_clear();
+            picture
+        }
+    };
     notes::step(|| "drawn".into());
     let mut about = vec![("Comment", command_line())];
     if let Some(path) = &args.scene {
