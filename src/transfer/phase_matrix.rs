@@ -2,7 +2,7 @@
 //!
 //! `Z^m(u, u') = Σ_l Π_l(u) S_l Π_l(u')` (Hovenier & van der Mee 1983; de Haan, Bosma & Hovenier 1987, eqs. 67 to 75)
 //! with u the cosine of a direction to the layer's normal, positive downwards, S_l the coefficients of degree l, and
-//! Π_l of the functions d_m0 and `-(d_m,-2 ± d_m2)/2`; factors i^m cancel. Light that falls in unpolarised comes out as
+//! Π_l of the functions d_m0 and `(d_m2 ± d_m,-2)/2`; factors i^m cancel, signs are those of our Q and azimuth. Light that falls in unpolarised comes out as
 //! `Σ (2 - δ_m0) Z^m` times cos mφ for I and Q, sin mφ for U and V.
 
 use super::expansion::Expansion;
@@ -25,7 +25,7 @@ pub(super) fn order(
     let from = basis(m, expansion.len(), stokes, 1.0, columns);
     let to = basis(m, expansion.len(), stokes, side, rows);
     let degrees = expansion.len().saturating_sub(m);
-    let mut scattered = Mat::zeros(rows.len(), degrees * stokes);
+    let mut scattered = Mat::<f64>::zeros(rows.len(), degrees * stokes);
     for k in 0..degrees {
         let coupling = expansion.coupling(m + k);
         for i in 0..rows.len() {
@@ -64,14 +64,14 @@ fn basis(m: usize, count: usize, stokes: usize, side: f64, list: Components<'_>)
     rows
 }
 
-/// `d_m0` and `-(d_m,-2 ± d_m2)/2` for l = m, m + 1, … below `count`.
+/// `d_m0` and `(d_m2 ± d_m,-2)/2` for l = m, m + 1, … below `count`.
 fn functions(m: usize, count: usize, u: f64) -> Vec<[f64; 3]> {
     let order = m as i32;
     let mut zero = Wigner::new(order, 0, u);
     let (mut below, mut above) = (Wigner::new(order, -2, u), Wigner::new(order, 2, u));
     let next = |_| {
         let (a, b) = (below.next(), above.next());
-        [zero.next(), -0.5 * (a + b), -0.5 * (a - b)]
+        [zero.next(), 0.5 * (b + a), 0.5 * (b - a)]
     };
     (0..count).map(next).skip(m).collect()
 }

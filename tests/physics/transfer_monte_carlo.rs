@@ -89,7 +89,7 @@ fn photons_agree() {
         let s = (1.0 - cosine * cosine).sqrt();
         [s * azimuth.cos(), s * azimuth.sin(), u]
     });
-    let count = 2_000_000u32;
+    let count = 20_000_000u32;
     let mut dice = Dice(88_172_645_463_325_252);
     let (mut sums, mut squares) = ([0.0f64; 5], [0.0f64; 5]);
     for _ in 0..count {
@@ -163,7 +163,8 @@ fn photons_agree() {
                 "{streams} streams, {side:?} {cosine} {azimuth}: {total:.6}, photons {expected:.6} ± {noise:.6}, once {whole:.6}: {:+.2} %",
                 100.0 * (total / expected - 1.0)
             );
-            let bound = if streams >= 24 { 0.006 } else { 0.03 };
+            // what is scattered twice within the peak's wings is smoothed: on the far side, near forward
+            let bound = if side == Side::Lit { 0.01 } else { 0.04 };
             assert!((total - expected).abs() < bound * expected + 3.0 * noise, "{k}");
         }
     }

@@ -2,7 +2,6 @@
 
 use super::drops::DropKeys;
 use super::{BowError, BowScene, USUAL_SUN, drops};
-use crate::color::{Illuminant, Observer};
 use crate::render::layer::{LayerLight, LayerSky, Place, Scattering};
 use crate::series::lorenz_mie::Sphere;
 use crate::transfer::{Expansion, Layer};

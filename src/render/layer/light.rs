@@ -8,7 +8,7 @@ use crate::math::parallel::*;
 use crate::phase_table::{Axes, PhaseTable};
 use crate::render::RenderError;
 use crate::render::directions::DirectionGrid;
-use crate::transfer::{Expansion, Fineness, Layer, Light, Polarisation, Side};
+use crate::transfer::{Fineness, Layer, Light, Polarisation, Side};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Steps of the angle to the normal and of the azimuth between which colours are interpolated, degrees.
@@ -107,10 +107,11 @@ impl LayerLight {
 
     /// What a table's particles scatter at the middle of its wavelengths, with cross-sections of scattering and
     /// extinction, m².
+    #[cfg(feature = "hdf5")]
     pub(in crate::render) fn mean_phase(
         table: &PhaseTable,
         count: usize,
-    ) -> Result<(Expansion, [f64; 2]), RenderError> {
+    ) -> Result<(crate::transfer::Expansion, [f64; 2]), RenderError> {
         let (bands, _) = bands(&[(table, 1.0)], count)?;
         let slab = &table.slabs[table.slabs.len() / 2];
         let sections = [slab.scattering_cross_section, slab.extinction_cross_section];
@@ -230,7 +231,7 @@ fn solve(
     let solved: Result<Vec<_>, _> = bands
         .par_iter()
         .with_max_len(1)
-        .map(|band| middle_layer(band, layer).light_with_error(sun, &fineness))
+        .map(|band| middle_layer(band, layer).light_with_error(sun, layer.place.side(), &fineness))
         .collect();
     Ok(solved?)
 }

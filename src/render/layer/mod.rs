@@ -18,7 +18,6 @@ mod light;
 mod place;
 
 pub use light::LayerLight;
-pub(super) use place::Met;
 pub use place::Place;
 
 use super::RenderError;

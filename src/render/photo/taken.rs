@@ -16,6 +16,8 @@ pub struct Taken {
     pub place: Option<[f64; 2]>,
     /// Where the camera looked, from north through east, radians.
     pub heading: Option<f64>,
+    /// How the picture lies in the file (1 to 8, as the standard counts; 1 is upright).
+    pub orientation: Option<u32>,
 }
 
 /// Diagonal of film, metres.
@@ -35,6 +37,7 @@ impl Taken {
             time: time(&block)?,
             place: place(&block)?,
             heading: heading(&block)?,
+            orientation: orientation(&block)?,
         })
     }
 
@@ -70,6 +73,15 @@ fn focal(block: &Exif) -> Result<Option<f64>, PhotoError> {
         0 => Ok(None),
         4..=2000 => Ok(Some(1e-3 * f64::from(mm))),
         _ => impossible("FocalLengthIn35mmFilm", mm, "4 to 2000 mm", "--fov-deg"),
+    }
+}
+
+fn orientation(block: &Exif) -> Result<Option<u32>, PhotoError> {
+    let field = block.get_field(Tag::Orientation, In::PRIMARY);
+    match field.and_then(|field| field.value.get_uint(0)) {
+        None | Some(0) => Ok(None),
+        Some(told @ 1..=8) => Ok(Some(told)),
+        Some(other) => impossible("Orientation", other, "1 to 8", "a file turned upright"),
     }
 }
 

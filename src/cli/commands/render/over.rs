@@ -13,6 +13,7 @@ use gonio::render::photo::{
     Bow, Curve, CutPlan, Fitted, LinearPicture, PhotoError, Taken, aimed_by_antisolar,
     aimed_by_horizon, cut, fit, sun_position, unix_seconds,
 };
+use image::imageops;
 use std::path::{Path, PathBuf};
 
 /// What a photograph needs besides.
@@ -82,7 +83,7 @@ impl OverArgs {
         let bytes = std::fs::read(path)
             .map_err(|error| PhotoError::Unread(format!("{}: {error}", path.display())))?;
         let taken = Taken::of(&bytes)?;
-        let photo = decoded(&bytes)?;
+        let photo = decoded(&bytes, taken.orientation.unwrap_or(1))?;
         let light = LinearPicture::of(&photo);
         (scene.camera.width, scene.camera.height) = (Some(photo.width), Some(photo.height));
         let by_lens = taken.field_of_view(photo.width, photo.height).map(f64::to_degrees);
@@ -194,11 +195,22 @@ fn seconds(text: &str) -> Result<f64> {
     Ok(read().ok_or_else(invalid)?)
 }
 
-fn decoded(bytes: &[u8]) -> Result<Picture> {
+/// The picture, upright.
+fn decoded(bytes: &[u8], orientation: u32) -> Result<Picture> {
     let unread = |error: image::ImageError| {
         PhotoError::Unread(format!("{error}; JPEG and PNG are accepted"))
     };
     let picture = image::load_from_memory(bytes).map_err(unread)?.into_rgb8();
+    let picture = match orientation {
+        2 => imageops::flip_horizontal(&picture),
+        3 => imageops::rotate180(&picture),
+        4 => imageops::flip_vertical(&picture),
+        5 => imageops::flip_horizontal(&imageops::rotate90(&picture)),
+        6 => imageops::rotate90(&picture),
+        7 => imageops::flip_horizontal(&imageops::rotate270(&picture)),
+        8 => imageops::rotate270(&picture),
+        _ => picture,
+    };
     let (width, height) = picture.dimensions();
     Ok(Picture { width: width as usize, height: height as usize, rgb: picture.into_raw() })
 }
