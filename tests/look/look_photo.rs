@@ -29,7 +29,7 @@ fn scene(radius_mm: f64, spread: f64, sun: f64) -> String {
 fn own_pictures_give_their_drops_back() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
-    let (radius, spread, sun) = (0.15, 0.12, 18.0);
+    let (radius, spread, sun) = (0.15, 0.08, 18.0);
     std::fs::write(at("s.toml"), scene(radius, spread, sun)).unwrap();
     gonio().arg("render").arg(at("s.toml")).arg("-o").arg(at("clean.png")).assert().success();
     let mut seed = 88_172_645_463_325_252u64;

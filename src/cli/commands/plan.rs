@@ -2,13 +2,13 @@
 
 use crate::cli::args::scene_flags::SceneFlags;
 use crate::cli::cpu_time::CpuTime;
-use crate::cli::failure::Result;
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::progress;
 use clap::Args;
 use gonio::phase_table::Slab;
 use gonio::plan::{Engine, Plan, PlannedRange, Symmetry};
 use gonio::render::bow::BowScene;
-use gonio::scene::{Scene, SceneKind, human_bytes};
+use gonio::scene::{Scene, SceneFile, SceneKind, human_bytes};
 use gonio::simulate;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -29,6 +29,10 @@ pub struct PlanArgs {
 
 pub fn run(args: PlanArgs) -> Result<()> {
     if let Some(path) = args.scene.as_deref().filter(|path| is_of_picture(path)) {
+        if args.flags.keys() != SceneFile::default() {
+            let words = "flags of keys belong to the scenes of tables; that of a picture says all that is planned of it";
+            return Err(Failure::usage(words));
+        }
         return plan_picture(path, args.json);
     }
     let scene = args.flags.scene(args.scene.as_deref())?;

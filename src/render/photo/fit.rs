@@ -60,6 +60,11 @@ const ROUNDS: usize = 25;
 /// Changes in units of the steps below which the search ends.
 const SETTLED: f64 = 0.02;
 
+/// Widest spread of sizes.
+const WIDEST: f64 = 0.5;
+/// Steps of elevation and turn that are looked at with each curve, one after the other, radians.
+const LOOKS: [[f64; 2]; 3] = [[0.010, 0.020], [0.0025, 0.008], [0.0008, 0.003]];
+
 /// Radii that are tried first, metres, and spreads with each.
 const FIRST: (f64, f64, usize) = (10e-6, 1e-3, 15);
 const SPREADS: [f64; 2] = [0.05, 0.25];
@@ -84,11 +89,8 @@ pub fn fit<E>(
         for spread in SPREADS {
             let colours = curve(radius, spread)?;
             let bow = Bow { radius, spread, ..start };
-            let (left, strength) = residual(cells, &bow, &colours);
-            let sum = square(&left);
-            if strength > 0.0 && best.is_none_or(|(least, _)| sum < least) {
-                best = Some((sum, bow));
-            }
+            let aimed = aimed(cells, bow, &colours);
+            best = aimed.into_iter().chain(best).min_by(|a, b| a.0.total_cmp(&b.0));
         }
     }
     let Some((_, mut bow)) = best else {
@@ -102,10 +104,12 @@ pub fn fit<E>(
     for _ in 0..ROUNDS {
         let mut slopes: Vec<Vec<f64>> = Vec::with_capacity(4);
         for k in 0..4 {
-            let beside = moved(&bow, k, 1.0);
+            // away from the end of the range
+            let side = if k == 1 && bow.spread > WIDEST - STEPS[1] { -1.0 } else { 1.0 };
+            let beside = moved(&bow, k, side);
             let near = if k < 2 { curve(beside.radius, beside.spread)? } else { colours.clone() };
             let (other, _) = residual(cells, &beside, &near);
-            slopes.push(other.iter().zip(&left).map(|(b, a)| b - a).collect());
+            slopes.push(other.iter().zip(&left).map(|(b, a)| side * (b - a)).collect());
         }
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let right: [f64; 4] = std::array::from_fn(|k| -dot(&slopes[k], &left));
@@ -151,13 +155,38 @@ pub fn fit<E>(
     Ok(Ok(Fitted { bow, deviation, strength, rms }))
 }
 
+/// Of the colours of some drops: the sun and the turn near the given ones that fit best, with the squares left; nothing where light
+/// would have to be taken away.
+fn aimed(cells: &[Cell], start: Bow, curve: &Curve) -> Option<(f64, Bow)> {
+    let mut best: Option<(f64, Bow)> = None;
+    let mut about = start;
+    for [elevation, turn] in LOOKS {
+        for i in -4..=4 {
+            for k in -2..=2 {
+                let bow = Bow {
+                    sun_elevation: about.sun_elevation + elevation * f64::from(i),
+                    turn: about.turn + turn * f64::from(k),
+                    ..start
+                };
+                let (left, strength) = residual(cells, &bow, curve);
+                let sum = square(&left);
+                if strength > 0.0 && best.is_none_or(|(least, _)| sum < least) {
+                    best = Some((sum, bow));
+                }
+            }
+        }
+        about = best?.1;
+    }
+    best
+}
+
 /// A bow with one parameter changed by so many steps.
 fn moved(bow: &Bow, k: usize, steps: f64) -> Bow {
     let by = steps * STEPS[k];
     let mut bow = *bow;
     match k {
         0 => bow.radius = (bow.radius * by.exp()).clamp(2e-6, 3e-3),
-        1 => bow.spread = (bow.spread + by).clamp(0.0, 0.5),
+        1 => bow.spread = (bow.spread + by).clamp(0.0, WIDEST),
         2 => bow.sun_elevation += by,
         _ => bow.turn += by,
     }

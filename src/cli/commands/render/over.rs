@@ -32,28 +32,28 @@ pub struct OverArgs {
     )]
     horizon_px: Option<f64>,
     /// Antisolar point of the photograph (the shadow of the camera), pixels from the left and the top; may lie outside
-    #[arg(long, value_name = "COLUMN,ROW", requires = "over", value_delimiter = ',', num_args = 2, allow_negative_numbers = true,
+    #[arg(long, value_name = "COLUMN,ROW", requires = "over", value_parser = pair, allow_hyphen_values = true,
           conflicts_with_all = ["horizon_px", "elevation_deg", "azimuth_deg"])]
-    antisolar_px: Option<Vec<f64>>,
+    antisolar_px: Option<[f64; 2]>,
     /// When it was taken, as 2024-06-20T19:30:00+02:00
     #[arg(long, value_name = "TIME", requires = "over")]
     time: Option<String>,
     /// Where it was taken: latitude and longitude, north and east positive
-    #[arg(
-        long,
-        value_name = "LAT,LON",
-        requires = "over",
-        value_delimiter = ',',
-        num_args = 2,
-        allow_negative_numbers = true
-    )]
-    place: Option<Vec<f64>>,
+    #[arg(long, value_name = "LAT,LON", requires = "over", value_parser = pair, allow_hyphen_values = true)]
+    place: Option<[f64; 2]>,
     /// Luminance that the bow adds at its brightest; 1 is white
-    #[arg(long, requires = "over")]
+    #[arg(long, requires = "over", allow_negative_numbers = true)]
     strength: Option<f64>,
     /// Find drop size, spread, sun and aim that fit the photograph's bow, from the aim given
     #[arg(long, requires = "over")]
     fit: bool,
+}
+
+/// Two numbers with a comma between them.
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let read = |part: &str| part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let numbers = text.split_once(',').and_then(|(a, b)| Some([read(a)?, read(b)?]));
+    numbers.ok_or_else(|| "two numbers with a comma between them are accepted".into())
 }
 
 /// Luminance of the bow unless told.
@@ -101,7 +101,7 @@ impl OverArgs {
             camera = aimed_by_horizon(&camera, row)?;
         }
         if let Some(place) = &self.antisolar_px {
-            camera = aimed_by_antisolar(&camera, [place[0], place[1]], sun)?;
+            camera = aimed_by_antisolar(&camera, *place, sun)?;
         }
         let fitted = if self.fit { Some(fitted(&light, &camera, sun, scene)?) } else { None };
         if let Some((found, _)) = &fitted {
