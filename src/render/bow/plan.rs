@@ -38,7 +38,7 @@ impl BowScene {
             scattered += scattering;
             lost += extinction;
         }
-        if !(scattered > 0.0) {
+        if scattered.is_nan() || scattered <= 0.0 {
             let message = "drops: none given; add [[drops]] to the scene";
             return Err(BowError::Keys(message.into()));
         }

@@ -57,7 +57,7 @@ pub fn aimed_by_antisolar(
     // up and forward parts make the height: y cos E + z sin E = −sin e
     let reach = seen.y.hypot(seen.z);
     let ratio = -sun_elevation.sin() / reach;
-    if !(ratio.abs() <= 1.0) {
+    if !(-1.0..=1.0).contains(&ratio) {
         return Err(invalid());
     }
     let elevation = ratio.asin() - seen.y.atan2(seen.z);

@@ -69,31 +69,34 @@ const LOOKS: [[f64; 2]; 3] = [[0.010, 0.020], [0.0025, 0.008], [0.0008, 0.003]];
 const FIRST: (f64, f64, usize) = (10e-6, 1e-3, 15);
 const SPREADS: [f64; 2] = [0.05, 0.25];
 
-/// Fit; `curve` makes the colours of drops of a radius and a spread, `start` has the aim that the cuts were laid out for.
+/// Where a fit begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// The aim is nearly known, the drops are not.
+    Aim(Bow),
+    /// All is nearly known: found in cuts laid out for another aim.
+    Near(Bow),
+}
+
+/// Fit; `curve` makes the colours of drops of a radius and a spread. Cuts should be laid out for nearly the right aim: an aim that is off
+/// by a degree smears the bow within each. So fit, cut anew for what was found, and fit again.
 ///
 /// # Errors
 /// Those of `curve`, and in words why nothing fits.
 pub fn fit<E>(
     cells: &[Cell],
-    start: Bow,
+    start: Start,
     mut curve: impl FnMut(f64, f64) -> Result<Curve, E>,
 ) -> Result<Result<Fitted, String>, E> {
     if cells.len() < 60 {
         let words = "the cut meets too little of the picture: is the aim right (sun, horizon, azimuth, field of view)?";
         return Ok(Err(words.into()));
     }
-    let mut best: Option<(f64, Bow)> = None;
-    let (from, to, count) = FIRST;
-    for k in 0..count {
-        let radius = from * (to / from).powf(k as f64 / (count - 1) as f64);
-        for spread in SPREADS {
-            let colours = curve(radius, spread)?;
-            let bow = Bow { radius, spread, ..start };
-            let aimed = aimed(cells, bow, &colours);
-            best = aimed.into_iter().chain(best).min_by(|a, b| a.0.total_cmp(&b.0));
-        }
-    }
-    let Some((_, mut bow)) = best else {
+    let begun = match start {
+        Start::Near(bow) => Some(bow),
+        Start::Aim(bow) => searched(cells, bow, &mut curve)?,
+    };
+    let Some(mut bow) = begun else {
         let words = "no bow is found along the cut: is the antisolar point where the shadow of the camera was?";
         return Ok(Err(words.into()));
     };
@@ -153,6 +156,25 @@ pub fn fit<E>(
     let weight: f64 = 3.0 * cells.iter().map(|cell| cell.count).sum::<f64>();
     let rms = (square(&left) / weight).sqrt();
     Ok(Ok(Fitted { bow, deviation, strength, rms }))
+}
+
+/// The best of a grid of radii and spreads, each with its best aim.
+fn searched<E>(
+    cells: &[Cell],
+    start: Bow,
+    mut curve: impl FnMut(f64, f64) -> Result<Curve, E>,
+) -> Result<Option<Bow>, E> {
+    let mut best: Option<(f64, Bow)> = None;
+    let (from, to, count) = FIRST;
+    for k in 0..count {
+        let radius = from * (to / from).powf(k as f64 / (count - 1) as f64);
+        for spread in SPREADS {
+            let colours = curve(radius, spread)?;
+            let aimed = aimed(cells, Bow { radius, spread, ..start }, &colours);
+            best = aimed.into_iter().chain(best).min_by(|a, b| a.0.total_cmp(&b.0));
+        }
+    }
+    Ok(best.map(|(_, bow)| bow))
 }
 
 /// Of the colours of some drops: the sun and the turn near the given ones that fit best, with the squares left; nothing where light
@@ -251,14 +273,13 @@ fn solved<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Option<[f64;
         let pivot = (k..N).max_by(|i, j| a[*i][k].abs().total_cmp(&a[*j][k].abs()))?;
         a.swap(k, pivot);
         b.swap(k, pivot);
-        if !(a[k][k].abs() > 1e-300) {
+        if a[k][k].is_nan() || a[k][k].abs() <= 1e-300 {
             return None;
         }
         for i in k + 1..N {
             let share = a[i][k] / a[k][k];
-            for j in k..N {
-                a[i][j] -= share * a[k][j];
-            }
+            let own = a[k];
+            a[i].iter_mut().zip(own).skip(k).for_each(|(value, own)| *value -= share * own);
             b[i] -= share * b[k];
         }
     }

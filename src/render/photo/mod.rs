@@ -27,7 +27,7 @@ pub use super::linear_picture::LinearPicture;
 pub use aim::{aimed_by_antisolar, aimed_by_horizon};
 pub use cut::{Cell, CutPlan, cut};
 pub use error::PhotoError;
-pub use fit::{Bow, Curve, Fitted, fit};
+pub use fit::{Bow, Curve, Fitted, Start, fit};
 pub use sun_position::{SunPosition, sun_position};
 #[cfg(feature = "pictures")]
 pub use taken::{Taken, unix_seconds};

@@ -135,10 +135,10 @@ fn place(block: &Exif) -> Result<Option<[f64; 2]>, PhotoError> {
     let latitude = told(Tag::GPSLatitude, Tag::GPSLatitudeRef, b'S');
     let longitude = told(Tag::GPSLongitude, Tag::GPSLongitudeRef, b'W');
     let (Some(latitude), Some(longitude)) = (latitude, longitude) else { return Ok(None) };
-    if !(latitude.abs() <= 90.0) {
+    if !(-90.0..=90.0).contains(&latitude) {
         return impossible("GPSLatitude", latitude, "-90 to 90 degrees", "--place");
     }
-    if !(longitude.abs() <= 180.0) {
+    if !(-180.0..=180.0).contains(&longitude) {
         return impossible("GPSLongitude", longitude, "-180 to 180 degrees", "--place");
     }
     Ok(Some([latitude.to_radians(), longitude.to_radians()]))

@@ -10,7 +10,7 @@ use gonio::render::Picture;
 use gonio::render::bow::{BowScene, DropKeys};
 use gonio::render::camera::Camera;
 use gonio::render::photo::{
-    Bow, Curve, CutPlan, Fitted, LinearPicture, PhotoError, Taken, aimed_by_antisolar,
+    Bow, Curve, CutPlan, Fitted, LinearPicture, PhotoError, Start, Taken, aimed_by_antisolar,
     aimed_by_horizon, cut, fit, sun_position, unix_seconds,
 };
 use image::imageops;
@@ -63,7 +63,9 @@ const CUT: [f64; 2] = [124.0, 160.0];
 const CUT_STEPS: usize = 240;
 const CURVE: [f64; 2] = [116.0, 168.0];
 const CURVE_STEPS: usize = 700;
-const SECTORS: usize = 16;
+const SECTORS: usize = 24;
+/// Times that the photograph is cut anew for what was found.
+const AGAIN: usize = 2;
 /// Of colours of spheres.
 const FINENESS: f64 = 0.25;
 
@@ -222,14 +224,10 @@ fn fitted(
     sun: f64,
     scene: &BowScene,
 ) -> Result<(Fitted, f64)> {
-    let plan = CutPlan {
-        sun_elevation: sun,
-        theta: CUT.map(f64::to_radians),
-        steps: CUT_STEPS,
-        sectors: SECTORS,
+    let cells = |camera: &Camera, sun_elevation: f64| {
+        let theta = CUT.map(f64::to_radians);
+        cut(light, camera, &CutPlan { sun_elevation, theta, steps: CUT_STEPS, sectors: SECTORS })
     };
-    let cells = cut(light, camera, &plan);
-    let start = Bow { radius: 0.3e-3, spread: 0.1, sun_elevation: sun, turn: 0.0 };
     let illuminant = scene.sun.illuminant.as_deref().unwrap_or("D65").parse()?;
     let observer = scene.sun.observer.as_deref().unwrap_or("1931").parse()?;
     let medium = MediumSpec::parse("water")?.resolve(Path::new("."))?;
@@ -255,7 +253,16 @@ fn fitted(
             rgb: seen[0].iter().map(|xyz| xyz_to_linear_srgb(*xyz)).collect(),
         })
     };
-    let found = fit(&cells, start, curve)?.map_err(PhotoError::NoFit)?;
+    let guess = Bow { radius: 0.3e-3, spread: 0.1, sun_elevation: sun, turn: 0.0 };
+    let mut found =
+        fit(&cells(camera, sun), Start::Aim(guess), curve)?.map_err(PhotoError::NoFit)?;
+    for _ in 0..AGAIN {
+        let Bow { sun_elevation, turn, .. } = found.bow;
+        let aimed = Camera { azimuth: camera.azimuth + turn, ..*camera };
+        let start = Start::Near(Bow { turn: 0.0, ..found.bow });
+        found = fit(&cells(&aimed, sun_elevation), start, curve)?.map_err(PhotoError::NoFit)?;
+        found.bow.turn += turn;
+    }
     spinner.finish_and_clear();
     let best = curve(found.bow.radius, found.bow.spread)?;
     let luminance = |rgb: &[f64; 3]| 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
