@@ -4,7 +4,9 @@ use crate::{gonio, pixels};
 use predicates::prelude::*;
 use std::path::Path;
 
-const DROPS: &str = "[[drops]]\nradius_mm = 0.02\n";
+/// Droplets whose table takes a second.
+const DROPS: &str = "[[drops]]\nsize_distribution = { kind = \"gamma\", effective_radius_um = 8, \
+                     effective_variance = 0.05 }\nwavelengths = 9\ntolerance = 0.05\n";
 
 fn written(folder: &Path, text: &str) -> std::path::PathBuf {
     let path = folder.join("scene.toml");

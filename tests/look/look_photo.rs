@@ -139,7 +139,7 @@ fn what_is_missing_is_told() {
     command
         .assert()
         .success()
-        .stderr(predicate::str::contains("sun by time and place: elevation 18"));
+        .stderr(predicate::str::contains("sun by time and place: elevation 16.6"));
     let rgb = pixels(Path::new(&out));
     // light is added: nothing is darker than the photograph
     assert!(rgb.iter().all(|v| *v >= 89) && rgb.iter().any(|v| *v > 130));

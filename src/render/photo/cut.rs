@@ -52,7 +52,8 @@ pub(super) fn scattering_angle(view: DVec3, sun_elevation: f64) -> f64 {
 
 /// Cut a photograph.
 pub fn cut(photo: &LinearPicture, camera: &Camera, plan: &CutPlan) -> Vec<Cell> {
-    let empty = ([0.0f64; 3], DVec3::ZERO, 0.0);
+    // colours, scattering angle and angle about the antisolar point, pixels
+    let empty = ([0.0f64; 3], [0.0f64; 2], 0.0);
     let mut sums = vec![empty; plan.sectors * plan.steps];
     let point = antisolar(plan.sun_elevation);
     let up = (DVec3::Z - point * point.z).normalize();
@@ -73,7 +74,8 @@ pub fn cut(photo: &LinearPicture, camera: &Camera, plan: &CutPlan) -> Vec<Cell> 
             let sum = &mut sums[sector * plan.steps + step as usize];
             let rgb = photo.at(column, row);
             (0..3).for_each(|c| sum.0[c] += rgb[c]);
-            sum.1 += view;
+            sum.1[0] += theta;
+            sum.1[1] += TAU * turn;
             sum.2 += 1.0;
         }
     }
@@ -83,11 +85,51 @@ pub fn cut(photo: &LinearPicture, camera: &Camera, plan: &CutPlan) -> Vec<Cell> 
         if (met as f64) < LEAST_WHOLE * plan.steps as f64 {
             continue;
         }
-        for (k, (rgb, view, count)) in steps.iter().enumerate().filter(|(_, sum)| sum.2 > 0.0) {
+        for (k, (rgb, [theta, turn], count)) in
+            steps.iter().enumerate().filter(|(_, sum)| sum.2 > 0.0)
+        {
             let along = 2.0 * (k as f64 + 0.5) / plan.steps as f64 - 1.0;
             let rgb = rgb.map(|sum| sum / count);
-            cells.push(Cell { view: view.normalize(), sector, along, rgb, count: *count });
+            // the mean of directions on an arc would lie within it
+            let ((st, ct), (sp, cp)) = ((theta / count).sin_cos(), (turn / count).sin_cos());
+            let view = (up * cp + side * sp) * st - point * ct;
+            cells.push(Cell { view, sector, along, rgb, count: *count });
         }
     }
     cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::camera::Lens;
+
+    /// A picture whose brightness is the scattering angle: every cell has that of its direction.
+    #[test]
+    fn cells_are_where_they_say() {
+        let camera = Camera {
+            lens: Lens::Rectilinear,
+            field_of_view: 1.2,
+            elevation: 0.25,
+            azimuth: 0.1,
+            width: 240,
+            height: 160,
+        };
+        let (sun, true_sun) = (0.3, 0.31);
+        let mut rgb = Vec::new();
+        for row in 0..160 {
+            for column in 0..240 {
+                let view = camera.direction(column as f64 + 0.5, row as f64 + 0.5).unwrap();
+                rgb.extend([scattering_angle(view, true_sun) as f32; 3]);
+            }
+        }
+        let photo = LinearPicture { width: 240, height: 160, rgb };
+        let plan = CutPlan { sun_elevation: sun, theta: [2.2, 2.7], steps: 60, sectors: 24 };
+        let cells = cut(&photo, &camera, &plan);
+        assert!(cells.len() > 200, "{}", cells.len());
+        for cell in cells {
+            let there = scattering_angle(cell.view, true_sun);
+            assert!((cell.rgb[0] - there).abs() < 2e-4, "{} {there}", cell.rgb[0]);
+        }
+    }
 }
