@@ -30,7 +30,7 @@
 //!
 //! Floors of the house, top first (a module imports only from floors below its own):
 //! `cli` · `figures`, `compare` · `render` · `lee`, `batch`, [`scatter`] · `simulate` · `plan`, `tabulate` ·
-//! `farfield`, [`facets`], [`radar`] · `series`, `export` · `hdf5`, [`population`] · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
+//! `farfield`, [`facets`], [`radar`] · `series`, `export` · `hdf5`, [`population`], [`transfer`] · `scene`, `phase_table`, `trace`, [`sun_disc`] · `optics`,
 //! `medium`, `shape`, `color`, `size_distribution`, [`cancel`] · `math`, `pending_file`, [`fault`].
 //!
 //! Features, all on by default: `hdf5` (tables as files, exports, batches; brings C code), `cli` (the program),
@@ -56,6 +56,7 @@ pub mod trace;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 pub mod population;
+pub mod transfer;
 
 pub mod series;
 

@@ -21,7 +21,7 @@ const FLOORS: [(u32, &[&str]); 13] = [
     (5, &["farfield", "facets", "radar"]),
     // The export formats that are netCDF files use the writer of hdf5.
     (4, &["series", "export"]),
-    (3, &["hdf5", "population"]),
+    (3, &["hdf5", "population", "transfer"]),
     (2, &["scene", "phase_table", "trace", "sun_disc"]),
     (1, &["optics", "medium", "shape", "color", "size_distribution", "cancel"]),
     (0, &["math", "pending_file", "fault"]),

@@ -25,7 +25,7 @@ pub mod vec3;
 pub(crate) use curves::{
     chebyshev, cosine_series, interpolate, lane_fourier, monotone, uneven_fourier,
 };
-pub(crate) use special::{airy, principal_value, riccati_bessel, spherical_harmonics};
+pub(crate) use special::{airy, principal_value, riccati_bessel, spherical_harmonics, wigner};
 
 /// The golden ratio's fraction: steps of it spread any number of places evenly over 0 to 1.
 pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_9;

@@ -2,6 +2,7 @@
 
 use crate::color::ColorError;
 use crate::fault::{Blame, Fault};
+use crate::transfer::TransferError;
 use std::path::PathBuf;
 
 /// Why a picture cannot be made.
@@ -12,6 +13,8 @@ pub enum RenderError {
     Color(#[from] ColorError),
     #[error("{}: {source}", path.display())]
     Write { path: PathBuf, source: std::io::Error },
+    #[error(transparent)]
+    Transfer(#[from] TransferError),
     #[error("drawing failed: {0}")]
     Drawing(String),
     #[error("{field} = {value}: {accepted}")]
@@ -21,7 +24,9 @@ pub enum RenderError {
 impl Blame for RenderError {
     fn fault(&self) -> Fault {
         match self {
-            RenderError::Color(_) | RenderError::Invalid { .. } => Fault::Input,
+            RenderError::Color(_) | RenderError::Transfer(_) | RenderError::Invalid { .. } => {
+                Fault::Input
+            }
             RenderError::Write { .. } | RenderError::Drawing(_) => Fault::Run,
         }
     }

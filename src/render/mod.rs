@@ -20,6 +20,9 @@ mod directions;
 mod error;
 #[cfg(feature = "hdf5")]
 mod grid;
+pub mod layer;
+mod linear_picture;
+pub mod photo;
 mod picture;
 #[cfg(feature = "pictures")]
 pub(crate) mod plots;
@@ -30,6 +33,7 @@ mod thinned;
 mod tristimulus;
 
 pub use error::RenderError;
+pub use linear_picture::LinearPicture;
 pub use picture::{Picture, write_complete};
 #[cfg(feature = "pictures")]
 pub use plots::color_diagram::ColorDiagram;

@@ -7,10 +7,12 @@
 //! `P · μ₀/(μ₀+μ) · (1 − exp(−τ(1/μ₀ + 1/μ)))`. The background is that which is seen beside the bow, through the rain: its
 //! colour comes out as it is stated, and the bow is added as light.
 //! Drops or crystals that fill the air all around (`RainShape::Around`) have μ = μ₀ = 1 everywhere.
-//! Light scattered more than once is left out.
+//! Light scattered more than once is left out, but where there is a [layer](super::layer).
 
 use super::camera::Camera;
 use super::error::RenderError;
+use super::layer::{LayerLight, Place};
+use super::linear_picture::LinearPicture;
 use super::picture::Picture;
 use super::tristimulus::Tristimulus;
 use crate::color::{
@@ -19,6 +21,7 @@ use crate::color::{
 use crate::math::parallel::*;
 use crate::phase_table::{PhaseTable, Quantity};
 use crate::sun_disc::DiscPoints;
+use crate::transfer::{Side, once};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -113,6 +116,69 @@ pub struct Drawn {
 /// [`RenderError`] when tables lack colours, polarisation or the directions that the camera sees,
 /// belong to another sun, or when the camera sees no sky.
 pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Drawn, RenderError> {
+    render_layer(camera, sky, drops, None)
+}
+
+/// Draw the sky with a layer in place of the rain; the same without one.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_layer(
+    camera: &Camera,
+    sky: &Sky,
+    drops: &[Drops<'_>],
+    layer: Option<&LayerLight>,
+) -> Result<Drawn, RenderError> {
+    let pixels = seen(camera, sky, drops, layer)?;
+    let peak = brightest(&pixels);
+    let usual = if peak > 0.0 { sky.brightness / peak } else { 0.0 };
+    let exposure = sky.exposure.unwrap_or(usual);
+    let mut picture = Picture::new(camera.width, camera.height);
+    for (rgb, pixel) in picture.rgb.chunks_exact_mut(3).zip(&pixels) {
+        rgb.copy_from_slice(&pixel.srgb(sky, exposure, layer));
+    }
+    let rain = pixels.iter().filter(|p| matches!(p, Pixel::Rain { .. })).count();
+    let untold = pixels.iter().filter(|p| p.is_untold()).count();
+    Ok(Drawn { picture, untold: untold as f64 / rain as f64 })
+}
+
+/// The light of the bow alone, linear sRGB per irradiance of the sun, and the luminance of its brightest place.
+///
+/// # Errors
+/// As [`render`].
+pub fn light(
+    camera: &Camera,
+    sky: &Sky,
+    drops: &[Drops<'_>],
+    layer: Option<&LayerLight>,
+) -> Result<(LinearPicture, f64), RenderError> {
+    let pixels = seen(camera, sky, drops, layer)?;
+    let of = |pixel: &Pixel| match pixel {
+        Pixel::Rain { bow: Some(xyz), .. } => xyz_to_linear_srgb(*xyz).map(|v| v as f32),
+        _ => [0.0; 3],
+    };
+    let rgb = pixels.iter().flat_map(of).collect();
+    Ok((LinearPicture { width: camera.width, height: camera.height, rgb }, brightest(&pixels)))
+}
+
+/// Luminance of the brightest pixel: the bow is what the picture is about; light from near the sun may burn out.
+fn brightest(pixels: &[Pixel]) -> f64 {
+    let most = |behind: bool| {
+        pixels.iter().fold(0.0_f64, |most, pixel| match pixel {
+            Pixel::Rain { bow: Some(xyz), back, .. } if *back || !behind => most.max(xyz[1]),
+            _ => most,
+        })
+    };
+    if most(true) > 0.0 { most(true) } else { most(false) }
+}
+
+/// What all pixels see.
+fn seen(
+    camera: &Camera,
+    sky: &Sky,
+    drops: &[Drops<'_>],
+    layer: Option<&LayerLight>,
+) -> Result<Vec<Pixel>, RenderError> {
     camera.validate()?;
     check(sky, drops)?;
     let mixture = Mixture::new(sky, drops)?;
@@ -120,7 +186,7 @@ pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Drawn, 
         .into_par_iter()
         .map(|i| {
             let (row, column) = (i / camera.width, i % camera.width);
-            pixel(camera, sky, &mixture, column as f64 + 0.5, row as f64 + 0.5)
+            pixel(camera, sky, (&mixture, layer), column as f64 + 0.5, row as f64 + 0.5)
         })
         .collect();
     if !pixels.iter().any(|p| matches!(p, Pixel::Rain { bow: Some(_), .. })) {
@@ -143,24 +209,7 @@ pub fn render(camera: &Camera, sky: &Sky, drops: &[Drops<'_>]) -> Result<Drawn, 
             accepted: accepted.into(),
         });
     }
-    let exposure = sky.exposure.unwrap_or_else(|| {
-        // The bow is what the picture is about; light from near the sun may burn out.
-        let brightest = |behind: bool| {
-            pixels.iter().fold(0.0_f64, |most, pixel| match pixel {
-                Pixel::Rain { bow: Some(xyz), back, .. } if *back || !behind => most.max(xyz[1]),
-                _ => most,
-            })
-        };
-        let peak = if brightest(true) > 0.0 { brightest(true) } else { brightest(false) };
-        if peak > 0.0 { sky.brightness / peak } else { 0.0 }
-    });
-    let mut picture = Picture::new(camera.width, camera.height);
-    for (rgb, pixel) in picture.rgb.chunks_exact_mut(3).zip(&pixels) {
-        rgb.copy_from_slice(&pixel.srgb(sky, exposure));
-    }
-    let rain = pixels.iter().filter(|p| matches!(p, Pixel::Rain { .. })).count();
-    let untold = pixels.iter().filter(|p| p.is_untold()).count();
-    Ok(Drawn { picture, untold: untold as f64 / rain as f64 })
+    Ok(pixels)
 }
 
 /// What one pixel sees.
@@ -187,14 +236,18 @@ impl Pixel {
         matches!(self, Pixel::Rain { bow: None, met: true, .. })
     }
 
-    fn srgb(&self, sky: &Sky, exposure: f64) -> [u8; 3] {
+    fn srgb(&self, sky: &Sky, exposure: f64, layer: Option<&LayerLight>) -> [u8; 3] {
+        let lit = |xyz: [f64; 3]| xyz_to_linear_srgb(xyz.map(|v| v * exposure));
         let linear = match self {
             Pixel::Nothing => [0.0; 3],
-            Pixel::Ground => sky.ground.unwrap_or([0.0; 3]),
+            Pixel::Ground => {
+                let own = layer.map(|layer| lit(layer.ground));
+                sky.ground.or(own).unwrap_or([0.0; 3])
+            }
             Pixel::HorizonLine => [0.5; 3],
             Pixel::Sun => [1.0; 3],
             Pixel::Rain { bow, .. } => {
-                let bow = xyz_to_linear_srgb(bow.unwrap_or([0.0; 3]).map(|v| v * exposure));
+                let bow = lit(bow.unwrap_or([0.0; 3]));
                 std::array::from_fn(|c| bow[c] + sky.background[c])
             }
         };
@@ -202,7 +255,13 @@ impl Pixel {
     }
 }
 
-fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -> Pixel {
+fn pixel(
+    camera: &Camera,
+    sky: &Sky,
+    (mixture, layer): (&Mixture, Option<&LayerLight>),
+    column: f64,
+    row: f64,
+) -> Pixel {
     let Some(view) = camera.direction(column, row) else { return Pixel::Nothing };
     if sky.horizon_line {
         let below = camera.direction(column, row + 1.0);
@@ -210,7 +269,12 @@ fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -
             return Pixel::HorizonLine;
         }
     }
-    if view.z < 0.0 && sky.ground.is_some() {
+    let ground = match layer.map(|layer| layer.place) {
+        Some(Place::Above) => true,
+        Some(Place::Below) => false,
+        Some(Place::Curtain) | None => sky.ground.is_some(),
+    };
+    if view.z < 0.0 && ground {
         return Pixel::Ground;
     }
     let (sun_sine, sun_cosine) = sky.sun_elevation.sin_cos();
@@ -218,15 +282,16 @@ fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -
     if (-view).dot(light) > SUN_ANGULAR_RADIUS.cos() {
         return Pixel::Sun;
     }
-    let (mu, mu0) = match sky.rain {
-        RainShape::Curtain => (view.x, sun_cosine),
-        RainShape::Around => (1.0, 1.0),
+    let (single, met) = match layer {
+        None => (single_factor(sky, view), None),
+        Some(layer) => {
+            let met = layer.place.met(view);
+            (met.map(|met| layer.once(met.cosine)), met)
+        }
     };
-    if mu <= 1e-6 || mu0 <= 1e-6 {
+    let Some(single) = single else {
         return Pixel::Rain { bow: None, met: false, back: false };
-    }
-    let depth = sky.optical_depth;
-    let single = mu0 / (mu0 + mu) * (1.0 - (-depth * (1.0 / mu0 + 1.0 / mu)).exp());
+    };
 
     // The frame of the table: z along the light, x to the upper side.
     let upper = DVec3::new(sun_sine, 0.0, sun_cosine);
@@ -235,25 +300,45 @@ fn pixel(camera: &Camera, sky: &Sky, mixture: &Mixture, column: f64, row: f64) -
     let (along, x, y) = (scattered.dot(light), scattered.dot(upper), scattered.dot(side));
     let theta = x.hypot(y).atan2(along);
     let phi = y.atan2(x);
-    let filter =
-        sky.polariser.map(|angle| filter_angle(view, angle, theta, phi, (upper, side, light)));
-    let bow = mixture.at(theta, phi, filter).map(|xyz| xyz.map(|v| v * single));
+    let axis = sky.polariser.map(|angle| filter_axis(view, angle));
+    let filter = axis.map(|axis| filter_angle(axis, theta, phi, (upper, side, light)));
+    let more = match (layer, met) {
+        (Some(layer), Some(met)) => {
+            let filter = axis.map(|axis| axis.dot(met.perpendicular).atan2(axis.dot(met.parallel)));
+            layer.more(&met, filter)
+        }
+        _ => [0.0; 3],
+    };
+    let bow = mixture.at(theta, phi, filter);
+    let bow = bow.map(|xyz| std::array::from_fn(|c| (xyz[c] * single + more[c]).max(0.0)));
     Pixel::Rain { bow, met: true, back: along < 0.0 }
+}
+
+/// Radiance of light scattered once in the rain, over irradiance and phase function; nothing where the line of sight
+/// does not meet it.
+fn single_factor(sky: &Sky, view: DVec3) -> Option<f64> {
+    let (mu, mu0) = match sky.rain {
+        RainShape::Curtain => (view.x, sky.sun_elevation.cos()),
+        RainShape::Around => (1.0, 1.0),
+    };
+    (mu > 1e-6 && mu0 > 1e-6).then(|| once(Side::Lit, sky.optical_depth, mu, mu0))
+}
+
+/// Transmission axis of a filter, its angle from the horizontal as the camera's holder sees it.
+fn filter_axis(view: DVec3, angle: f64) -> DVec3 {
+    let horizontal = view.cross(DVec3::Z).normalize_or(DVec3::NEG_Y);
+    let vertical = horizontal.cross(view);
+    horizontal * angle.cos() + vertical * angle.sin()
 }
 
 /// Angle between the filter's axis and the parallel direction of the scattered light, with
 /// `E_t = E∥ cos ψ + E⊥ sin ψ`.
 fn filter_angle(
-    view: DVec3,
-    axis: f64,
+    filter: DVec3,
     theta: f64,
     phi: f64,
     (upper, side, light): (DVec3, DVec3, DVec3),
 ) -> f64 {
-    // Horizontal and upward directions across the line of sight, as the camera's holder sees them.
-    let horizontal = view.cross(DVec3::Z).normalize_or(DVec3::NEG_Y);
-    let vertical = horizontal.cross(view);
-    let filter = horizontal * axis.cos() + vertical * axis.sin();
     let (st, ct) = theta.sin_cos();
     let (sp, cp) = phi.sin_cos();
     let parallel = (upper * cp + side * sp) * ct - light * st;

@@ -83,7 +83,6 @@ fn scenes_are_sent_to_their_command() {
     for (arguments, told) in [
         (vec!["table", &bow, "-o", "x.h5"], "scene of a picture, which `gonio render` draws"),
         (vec!["validate", &bow], "scene of a picture, which `gonio render` draws"),
-        (vec!["plan", &bow], "scene of a picture, which `gonio render` draws"),
         (vec!["render", &drop, "-o", "x.png"], "scene of a table, which `gonio table` computes"),
     ] {
         let (code, message) = gonio(folder.path(), &arguments);

@@ -7,7 +7,9 @@ mod tables;
 
 mod look_bows;
 mod look_compare;
+mod look_layer;
 mod look_lee;
+mod look_photo;
 mod look_preview;
 mod look_report;
 mod look_sampling;

@@ -30,3 +30,5 @@ mod shared_rays;
 mod stress;
 mod tmatrix;
 mod trace_physics;
+mod transfer;
+mod transfer_monte_carlo;

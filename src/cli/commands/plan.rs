@@ -2,22 +2,23 @@
 
 use crate::cli::args::scene_flags::SceneFlags;
 use crate::cli::cpu_time::CpuTime;
-use crate::cli::failure::Result;
+use crate::cli::failure::{Failure, Result};
 use crate::cli::show::progress;
 use clap::Args;
 use gonio::phase_table::Slab;
 use gonio::plan::{Engine, Plan, PlannedRange, Symmetry};
-use gonio::scene::{Scene, human_bytes};
+use gonio::render::bow::BowScene;
+use gonio::scene::{Scene, SceneFile, SceneKind, human_bytes};
 use gonio::simulate;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What would be computed, what is skipped and why, time and memory expected
 #[derive(Args)]
 #[command(after_help = "Example: gonio plan data/scenes/raindrop.toml")]
 pub struct PlanArgs {
-    /// Scene file; without one, the built-in raindrop
+    /// Scene of a table or of a picture; without one, the built-in raindrop
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
     #[arg(long)]
@@ -27,6 +28,13 @@ pub struct PlanArgs {
 }
 
 pub fn run(args: PlanArgs) -> Result<()> {
+    if let Some(path) = args.scene.as_deref().filter(|path| is_of_picture(path)) {
+        if args.flags.keys() != SceneFile::default() {
+            let words = "flags of keys belong to the scenes of tables; that of a picture says all that is planned of it";
+            return Err(Failure::usage(words));
+        }
+        return plan_picture(path, args.json);
+    }
     let scene = args.flags.scene(args.scene.as_deref())?;
     let spinner = progress::spinner("trials");
     let plan = Plan::new(&scene)?;
@@ -83,6 +91,23 @@ pub fn run(args: PlanArgs) -> Result<()> {
         seconds / threads as f64,
         human_bytes(cost.memory)
     );
+    Ok(())
+}
+
+fn is_of_picture(path: &Path) -> bool {
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    SceneKind::of(&text) == Some(SceneKind::Picture)
+}
+
+/// Of a picture: how much of its light is scattered more often than once.
+fn plan_picture(path: &Path, json: bool) -> Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let words = BowScene::load(path)?.plan(folder)?;
+    if json {
+        println!("{}", serde_json::json!({ "scattering": words }));
+    } else {
+        words.iter().for_each(|words| println!("- {words}"));
+    }
     Ok(())
 }
 

@@ -9,12 +9,12 @@
 
 use crate::export::ExportError;
 use crate::export::atmosphere::database::{albedo, attributes, coefficients, variable};
-use crate::export::atmosphere::legendre::expand;
 use crate::export::atmosphere::size_grid::SizeGrid;
 use crate::export::atmosphere::source::Source;
 use crate::export::average::{Averaged, Curve};
 use crate::hdf5::{NetcdfFile, NetcdfValues, NetcdfVariable};
 use crate::phase_table::PhaseTable;
+use crate::transfer::Expansion;
 
 /// What is written: sizes, their averages, and the names of the dimensions between wavelength and angle.
 struct Layout<'a> {
@@ -134,7 +134,7 @@ impl Layout<'_> {
         let counts = self.curves().count();
         let count = |length: usize| NetcdfValues::I32(vec![length as i32; counts]);
         let pmom = self.curves().flat_map(|(a, curve)| {
-            let [p11, ..] = expand(a, curve, moments).alpha;
+            let [p11, ..] = Expansion::of_curves(&a.theta, &curve.elements, moments).0.alpha;
             p11
         });
         let mut variables = vec![

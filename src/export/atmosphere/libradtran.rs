@@ -7,13 +7,13 @@
 //! log-normal). A table without density is refused.
 
 use crate::export::atmosphere::database::{albedo, attributes, coefficients, variable};
-use crate::export::atmosphere::legendre::expand;
 use crate::export::atmosphere::size_grid::{SizeGrid, untold};
 use crate::export::atmosphere::source::Source;
 use crate::export::average::{Averaged, Curve};
 use crate::export::{ExportError, invalid};
 use crate::hdf5::{NetcdfFile, NetcdfValues, NetcdfVariable};
 use crate::phase_table::PhaseTable;
+use crate::transfer::Expansion;
 use std::f64::consts::PI;
 
 /// Name and units of what a table is refused without.
@@ -134,7 +134,8 @@ impl Layout<'_> {
     fn phase_and_moments(&self) -> (Vec<f32>, Vec<f32>) {
         let (mut phase, mut pmom) = (Vec::new(), Vec::new());
         for (table, curve) in self.curves() {
-            let expanded = expand(&self.source.averaged[table], curve, self.source.moments);
+            let theta = &self.source.averaged[table].theta;
+            let (expanded, _) = Expansion::of_curves(theta, &curve.elements, self.source.moments);
             let [a1, a2, a3, a4] = &expanded.alpha;
             let [b1, b2] = &expanded.beta;
             // In the order of `Averaged::elements`: 11, 12, 33, 34, 22, 44.

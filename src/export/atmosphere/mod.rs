@@ -2,7 +2,6 @@
 
 mod database;
 pub mod eradiate;
-mod legendre;
 pub mod libradtran;
 pub mod sasktran2;
 pub mod size_grid;

@@ -7,10 +7,10 @@
 //! name of the swept key.
 
 use crate::export::atmosphere::database::{attributes, coefficients, per_curve, variable};
-use crate::export::atmosphere::legendre::{Moments, expand};
 use crate::export::average::Averaged;
 use crate::hdf5::{NetcdfFile, NetcdfValues};
 use crate::phase_table::PhaseTable;
+use crate::transfer::Expansion;
 
 /// A swept dimension, as sasktran2 names it.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,11 +51,13 @@ pub fn database(
 ) -> NetcdfFile {
     let averaged: Vec<&Averaged> = tables.iter().map(|(_, averaged)| *averaged).collect();
     let Some(&(first_table, first)) = tables.first() else { return NetcdfFile::default() };
-    let expanded: Vec<Moments> = averaged
+    let expanded: Vec<Expansion> = averaged
         .iter()
-        .flat_map(|a| a.curves.iter().map(|curve| expand(a, curve, moments)))
+        .flat_map(|a| {
+            a.curves.iter().map(|curve| Expansion::of_curves(&a.theta, &curve.elements, moments).0)
+        })
         .collect();
-    let column = |pick: &dyn Fn(&Moments) -> &Vec<f64>, sign: f64| {
+    let column = |pick: &dyn Fn(&Expansion) -> &Vec<f64>, sign: f64| {
         NetcdfValues::F64(expanded.iter().flat_map(|m| pick(m).iter().map(|v| sign * v)).collect())
     };
     let wavelengths = first.curves.iter().map(|curve| curve.wavelength * 1e9).collect();

@@ -46,6 +46,10 @@ pub struct Thresholds {
     /// Beyond this `k/n` the wave inside is too inhomogeneous for real rays: measured against Lorenz–Mie.
     pub largest_k_over_n: f64,
 
+    /// Share of the light of a layer that is scattered more often than once up to which pictures leave it out: less
+    /// than an eye tells apart.
+    pub most_scattered_again: f64,
+
     /// Least size parameter of a body of facets, and least half width (between parallel planes, over the reduced
     /// wavelength): below, fields on facets are no plane waves cut off at edges.
     pub least_facet_sizes: [f64; 2],
@@ -227,6 +231,7 @@ impl Thresholds {
         least_phase_shift: 5.0,
         doubtful_phase_shift: 20.0,
         largest_k_over_n: 0.03,
+        most_scattered_again: 0.01,
         least_facet_sizes: [20.0, 5.0],
         least_facet: 12.0,
         error_of_facets: 6.0,

@@ -4,3 +4,4 @@ pub mod airy;
 pub mod principal_value;
 pub mod riccati_bessel;
 pub mod spherical_harmonics;
+pub mod wigner;

@@ -69,6 +69,8 @@ pub(super) struct Wanted {
     /// Whether the picture smooths over the sun's disc.
     pub sun_disc: bool,
     pub polarised: bool,
+    /// Whether light is scattered many times: all angles, and the polarisation of spheres.
+    pub layer: bool,
 }
 
 /// How many drops of a kind there are.
@@ -84,6 +86,14 @@ impl DropKeys {
     /// Drops of a finished table.
     pub fn table(path: &Path) -> Self {
         Self { table: Some(path.to_string_lossy().into_owned()), ..Self::default() }
+    }
+
+    /// Spheres of a radius (metres) and a spread of ln(radius).
+    pub fn spheres(radius: f64, spread: f64) -> Self {
+        let mut kind = Self { size_spread: (spread > 1e-4).then_some(spread), ..Self::default() };
+        kind.particle.shape = Some(Choice(ShapeName::Sphere));
+        kind.particle.radius_um = Some(1e6 * radius);
+        kind
     }
 
     /// Refuses keys that contradict each other.
@@ -145,7 +155,7 @@ impl DropKeys {
     }
 
     /// The scene of a table where a picture looks.
-    fn scene_of(&self, folder: &Path, wanted: Wanted) -> Result<Scene, BowError> {
+    pub(super) fn scene_of(&self, folder: &Path, wanted: Wanted) -> Result<Scene, BowError> {
         let (mut file, folder) = self.file(folder)?;
         file.amount.rain_rate_mm_h = self.rain_rate_mm_h.or(file.amount.rain_rate_mm_h);
         if self.rain_rate_mm_h.is_some() {
@@ -161,18 +171,20 @@ impl DropKeys {
         (file.light.frequencies_ghz, file.light.bandwidth_nm) = (None, None);
         file.light.sun_disc = None;
         file.table = Default::default();
-        let quantity = if wanted.polarised { Quantity::Mueller } else { Quantity::PhaseFunction };
-        file.table.quantity = Some(Choice(quantity));
         let shapes = file.particles.iter().map(|kind| kind.particle.shape);
         let shapes: Vec<_> =
             shapes.chain(file.particles.is_empty().then_some(file.particle.shape)).collect();
         let all = |is: &dyn Fn(ShapeName) -> bool| {
             shapes.iter().all(|shape| shape.is_some_and(|shape| is(shape.0)))
         };
+        let spheres = all(&|shape| shape == ShapeName::Sphere);
+        let mueller = wanted.polarised || wanted.layer && spheres;
+        let quantity = if mueller { Quantity::Mueller } else { Quantity::PhaseFunction };
+        file.table.quantity = Some(Choice(quantity));
         if all(&ShapeName::is_crystal) {
             return self.halo(file, &folder);
         }
-        let bows = all(&|shape| shape == ShapeName::Raindrop);
+        let bows = all(&|shape| shape == ShapeName::Raindrop) && !wanted.layer;
         let (from, to) = if bows { BOWS } else { ALL };
         let steps = (to - from) * if mean { STEPS_OF_MANY } else { STEPS_OF_ONE };
         file.table.theta_deg = Some(Grid::Range { from, to, count: steps as u64 + 1 });
@@ -356,7 +368,8 @@ fn of_scene(
 mod tests {
     use super::*;
 
-    const WANTED: Wanted = Wanted { sun_elevation_deg: 20.0, sun_disc: true, polarised: false };
+    const WANTED: Wanted =
+        Wanted { sun_elevation_deg: 20.0, sun_disc: true, polarised: false, layer: false };
 
     fn scene(keys: &str) -> Result<Scene, BowError> {
         let kind: DropKeys = toml::from_str(keys).unwrap();

@@ -24,6 +24,8 @@ pub struct BowScene {
     pub camera: CameraKeys,
     /// How much rain there is.
     pub rain: RainKeys,
+    /// A layer with light scattered many times, in place of the rain.
+    pub layer: LayerKeys,
     /// What is behind the rain.
     pub sky: SkyKeys,
     /// What is before the camera.
@@ -74,6 +76,22 @@ pub struct RainKeys {
     pub optical_depth: Option<f64>,
     /// `curtain` or `around`.
     pub shape: Option<String>,
+}
+
+/// A layer with light scattered many times.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct LayerKeys {
+    /// Along the normal.
+    pub optical_depth: Option<f64>,
+    /// Share of the light that the ground behind it throws back.
+    pub ground_albedo: Option<f64>,
+    /// `curtain`, `above` or `below`.
+    pub place: Option<String>,
+    /// `auto`, `single` or `multiple`.
+    pub scattering: Option<String>,
+    /// Directions per hemisphere.
+    pub streams: Option<usize>,
 }
 
 /// What is behind the rain.

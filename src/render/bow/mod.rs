@@ -6,18 +6,20 @@
 mod drops;
 mod error;
 mod keys;
+mod plan;
 mod sphere;
 mod store;
 
 pub use drops::DropKeys;
 pub use error::BowError;
-pub use keys::{BowScene, CameraKeys, FilterKeys, RainKeys, SkyKeys, SunKeys};
+pub use keys::{BowScene, CameraKeys, FilterKeys, LayerKeys, RainKeys, SkyKeys, SunKeys};
 pub use store::DropStore;
 
-use super::Picture;
 use super::camera::Camera;
 use super::grid::draw_grid;
-use super::sky::{Drops, RainShape, Sky, render};
+use super::layer::{LayerLight, LayerSky, Place};
+use super::sky::{Drops, RainShape, Sky, light, render_layer};
+use super::{LinearPicture, Picture};
 use crate::color::decode_srgb;
 use crate::phase_table::PhaseTable;
 use std::path::Path;
@@ -25,6 +27,20 @@ use std::sync::Arc;
 
 /// The sun where neither the scene nor a table says it, degrees above the horizon.
 const USUAL_SUN: f64 = 20.0;
+/// What a picture is drawn of.
+struct Made {
+    tables: Vec<(Arc<PhaseTable>, f64)>,
+    sky: Sky,
+    camera: Camera,
+    layer: Option<LayerLight>,
+}
+
+impl Made {
+    fn drops(&self) -> Vec<Drops<'_>> {
+        self.tables.iter().map(|(table, number)| Drops { table, number: *number }).collect()
+    }
+}
+
 /// Degrees, as people round them.
 const ROUNDING: f64 = 0.01;
 
@@ -48,15 +64,54 @@ impl BowScene {
         folder: &Path,
         tell: &dyn Fn(String),
     ) -> Result<Picture, BowError> {
+        let made = self.made(store, folder, tell)?;
+        let mut drawn = render_layer(&made.camera, &made.sky, &made.drops(), made.layer.as_ref())?;
+        note_on_reach(&made.tables, drawn.untold).into_iter().for_each(tell);
+        if self.camera.grid {
+            draw_grid(&mut drawn.picture, &made.camera, made.sky.sun_elevation)?;
+        }
+        Ok(drawn.picture)
+    }
+
+    /// The light of the bow alone, and the luminance of its brightest place.
+    ///
+    /// # Errors
+    /// As [`BowScene::draw`].
+    pub fn light(
+        &self,
+        folder: &Path,
+        tell: &dyn Fn(String),
+    ) -> Result<(LinearPicture, f64), BowError> {
+        let made = self.made(&DropStore::default(), folder, tell)?;
+        Ok(light(&made.camera, &made.sky, &made.drops(), made.layer.as_ref())?)
+    }
+
+    /// The camera of the keys, for the sun at an elevation (radians).
+    ///
+    /// # Errors
+    /// Keys that make no camera.
+    pub fn camera_for(&self, sun_elevation: f64) -> Result<Camera, BowError> {
+        self.camera(sun_elevation)
+    }
+
+    /// All that is drawn.
+    fn made(
+        &self,
+        store: &DropStore,
+        folder: &Path,
+        tell: &dyn Fn(String),
+    ) -> Result<Made, BowError> {
         let polarised = self.filter.polariser_deg.is_some();
         let asked = self.sun.elevation_deg;
         let usual = asked.unwrap_or(USUAL_SUN);
         self.sky(usual.to_radians())?;
         self.camera(usual.to_radians())?;
+        self.layer(usual.to_radians())?;
         let wanted = drops::Wanted {
             sun_elevation_deg: usual,
             sun_disc: self.sun.disc.unwrap_or(true),
             polarised,
+            layer: self.layer.optical_depth.is_some(),
         };
         let tables = drops::tables(&self.drops, folder, wanted, store, tell)?;
         let read = self.drops.iter().any(|kind| kind.table.is_some());
@@ -73,14 +128,18 @@ impl BowScene {
         check_sun(elevation, &tables)?;
         let sky = self.sky(elevation)?;
         let camera = self.camera(elevation)?;
-        let drops: Vec<Drops<'_>> =
-            tables.iter().map(|(table, number)| Drops { table, number: *number }).collect();
-        let mut drawn = render(&camera, &sky, &drops)?;
-        note_on_reach(&tables, drawn.untold).into_iter().for_each(tell);
-        if self.camera.grid {
-            draw_grid(&mut drawn.picture, &camera, elevation)?;
-        }
-        Ok(drawn.picture)
+        let layer = match self.layer(elevation)? {
+            Some(layer) => {
+                let kinds: Vec<_> =
+                    tables.iter().map(|(table, number)| (&**table, *number)).collect();
+                let eye = (sky.illuminant, sky.observer);
+                let solved = LayerLight::new(&layer, elevation, eye, &kinds)?;
+                solved.notes.iter().cloned().for_each(tell);
+                Some(solved)
+            }
+            None => None,
+        };
+        Ok(Made { tables, sky, camera, layer })
     }
 
     /// The camera, which looks at the top of the primary bow unless told otherwise.
@@ -101,6 +160,37 @@ impl BowScene {
         Ok(camera)
     }
 
+    /// The layer, if there is one.
+    pub(super) fn layer(&self, sun_elevation: f64) -> Result<Option<LayerSky>, BowError> {
+        let keys = &self.layer;
+        if *keys == LayerKeys::default() {
+            return Ok(None);
+        }
+        let rain = [
+            ("optical_depth", self.rain.optical_depth.map(|depth| depth.to_string())),
+            ("shape", self.rain.shape.as_ref().map(|shape| format!("\"{shape}\""))),
+        ];
+        if let Some((key, Some(value))) = rain.into_iter().find(|(_, value)| value.is_some()) {
+            return Err(BowError::Keys(format!(
+                "rain.{key} = {value} with [layer]: the layer takes the place of the rain; keep one"
+            )));
+        }
+        let Some(optical_depth) = keys.optical_depth else {
+            let message = "layer.optical_depth: none given; a number above 0 is needed, along the layer's normal";
+            return Err(BowError::Keys(message.into()));
+        };
+        let place = keys.place.as_deref().map_or(Ok(Place::default()), str::parse)?;
+        let usual = LayerSky::new(optical_depth, place);
+        let layer = LayerSky {
+            ground_albedo: keys.ground_albedo.unwrap_or(usual.ground_albedo),
+            scattering: keys.scattering.as_deref().map_or(Ok(usual.scattering), str::parse)?,
+            streams: keys.streams.unwrap_or(usual.streams),
+            ..usual
+        };
+        layer.check(sun_elevation)?;
+        Ok(Some(layer))
+    }
+
     /// What is behind and around the drops.
     fn sky(&self, sun_elevation: f64) -> Result<Sky, BowError> {
         let degrees = sun_elevation.to_degrees();
@@ -116,6 +206,8 @@ impl BowScene {
                 return Err(BowError::Keys(message));
             }
         };
+        // a layer has light of its own beside the bow
+        let behind = if self.layer.optical_depth.is_some() { [0; 3] } else { [107, 114, 118] };
         let linear = |rgb: [u8; 3]| rgb.map(|v| decode_srgb(f64::from(v) / 255.0));
         Ok(Sky {
             sun_elevation,
@@ -124,7 +216,7 @@ impl BowScene {
             observer: self.sun.observer.as_deref().unwrap_or("1931").parse()?,
             rain,
             optical_depth: self.rain.optical_depth.unwrap_or(1.0),
-            background: linear(self.sky.background.unwrap_or([107, 114, 118])),
+            background: linear(self.sky.background.unwrap_or(behind)),
             ground: self.sky.ground.map(linear),
             brightness: self.sky.brightness.unwrap_or(0.45),
             exposure: self.sky.exposure,

@@ -13,7 +13,8 @@ pub enum SceneKind {
 
 impl SceneKind {
     /// Sections of a picture's scene.
-    pub const PICTURE_SECTIONS: [&str; 6] = ["camera", "drops", "filter", "rain", "sky", "sun"];
+    pub const PICTURE_SECTIONS: [&str; 7] =
+        ["camera", "drops", "filter", "layer", "rain", "sky", "sun"];
 
     /// By the sections that it has; nothing where they tell of neither kind, or of both.
     pub fn of(text: &str) -> Option<Self> {

@@ -28,7 +28,7 @@ macro_rules! shipped {
 shipped! {
     "": "raindrop" "rain" "drizzle" "fog" "cloud_c1" "cloud_gamma" "spray" "aerosol_continental_polluted"
         "large_drop" "spheroid" "sphere_mie" "small_drop_tmatrix" "dyed_drop" "ice_column_halo" "prism" "paper_sadeghi_2012";
-    "bows/": "every_key" "double" "supernumerary" "cloud" "red" "twinned" "twinned_05" "filter_horizontal" "filter_vertical"
+    "bows/": "every_key" "double" "heavy_shower" "supernumerary" "cloud" "red" "twinned" "twinned_05" "filter_horizontal" "filter_vertical"
         "size_04_raindrop" "size_04_sphere" "size_06_raindrop" "size_06_sphere" "size_08_raindrop"
         "size_08_sphere" "rain_bow" "one_drop_bow" "twin_showers" "fog_bow" "cloud_c1_bow" "halo" "sun_00" "sun_20" "sun_40" "sun_60";
 }

@@ -1,18 +1,22 @@
 //! `gonio render`: a picture of a rainbow.
 
+mod over;
+
 use crate::cli::args::output::Output;
 use crate::cli::command_line::command_line;
 use crate::cli::failure::Result;
 use crate::cli::show::{notes, progress};
 use clap::Args;
-use gonio::render::bow::{BowScene, DropKeys};
+use gonio::render::bow::{BowScene, DropKeys, RainKeys};
+use over::OverArgs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Picture of a rainbow, from a scene file or from a table
 #[derive(Args)]
 #[command(after_help = "Examples: gonio render data/scenes/bows/double.toml -o bow.png
-          gonio render --table raindrop.h5 --fov-deg 60 -o bow.png")]
+          gonio render --table raindrop.h5 --fov-deg 60 -o bow.png
+          gonio render data/scenes/bows/double.toml --over photo.jpg --horizon-px 900 --fit -o bow.png")]
 pub struct RenderArgs {
     /// Scene of a picture; without one, --table
     #[arg(value_name = "SCENE.toml", required_unless_present = "table")]
@@ -53,9 +57,23 @@ pub struct RenderArgs {
     /// Circles of 42° and 51° about the antisolar point, it, and the horizon, with their names
     #[arg(long)]
     grid: bool,
+    /// A layer of this optical depth, in which light is scattered many times, in place of the rain
+    #[arg(long, value_name = "DEPTH", allow_negative_numbers = true)]
+    layer_optical_depth: Option<f64>,
+    /// Where the layer is: curtain (upright before the observer), above or below
+    #[arg(long, value_name = "PLACE")]
+    layer_place: Option<String>,
+    /// Share of light that the ground behind the layer throws back
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    ground_albedo: Option<f64>,
+    /// How often light is scattered in the layer: auto, single or multiple
+    #[arg(long)]
+    scattering: Option<String>,
     /// Light: D65, A, E, D50, 5778K, sun, sun-ground, sun@DEGREES
     #[arg(long)]
     illuminant: Option<String>,
+    #[command(flatten)]
+    over: OverArgs,
 }
 
 pub fn run(args: RenderArgs) -> Result<()> {
@@ -78,14 +96,29 @@ pub fn run(args: RenderArgs) -> Result<()> {
     lay(&args.sun_elevation_deg, &mut scene.sun.elevation_deg);
     lay(&args.polariser_deg, &mut scene.filter.polariser_deg);
     scene.camera.grid |= args.grid;
+    lay(&args.layer_optical_depth, &mut scene.layer.optical_depth);
+    lay(&args.ground_albedo, &mut scene.layer.ground_albedo);
+    if args.layer_optical_depth.is_some() {
+        // the flag is a wish for a layer: it takes the place of the scene's rain
+        scene.rain = RainKeys::default();
+    }
+    scene.layer.place = args.layer_place.clone().or(scene.layer.place);
+    scene.layer.scattering = args.scattering.clone().or(scene.layer.scattering);
     scene.camera.width = args.width.or(scene.camera.width);
     scene.camera.height = args.height.or(scene.camera.height);
     scene.camera.lens = args.lens.clone().or(scene.camera.lens);
     scene.sun.illuminant = args.illuminant.clone().or(scene.sun.illuminant);
 
-    let spinner = progress::spinner("drops and sky");
-    let picture = scene.draw(drop_folder, &|note| spinner.suspend(|| notes::tell([note])))?;
-    spinner.finish_and_clear();
+    let picture = match args.over.photograph() {
+        Some(photo) => args.over.draw(photo, &mut scene, drop_folder, args.fov_deg)?,
+        None => {
+            let spinner = progress::spinner("drops and sky");
+            let picture =
+                scene.draw(drop_folder, &|note| spinner.suspend(|| notes::tell([note])))?;
+            spinner.finish_and_clear();
+            picture
+        }
+    };
     notes::step(|| "drawn".into());
     let mut about = vec![("Comment", command_line())];
     if let Some(path) = &args.scene {
