@@ -95,7 +95,7 @@ impl<'a> ComplexWavefront<'a> {
             .sqrt()
             .min(2.0);
         // which columns the rays of each cell of a row come near
-        let mut near: Vec<Vec<usize>> = vec![Vec::with_capacity(columns.len()); SPOKES];
+        let mut near: Vec<Vec<usize>> = vec![Vec::new(); SPOKES];
         let mut row = None;
         for (k, ring) in self.lattice.rings.iter().enumerate() {
             let rows = self.grid.rows(ring.alpha);

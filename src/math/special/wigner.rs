@@ -88,7 +88,7 @@ mod tests {
     fn functions_mirror() {
         for (l, m) in [(4, 1), (5, 3), (7, 0)] {
             for n in [0, 2, -2] {
-                let sign = if (l + m as usize) % 2 == 0 { 1.0 } else { -1.0 };
+                let sign = if (l + m as usize).is_multiple_of(2) { 1.0 } else { -1.0 };
                 let (a, b) = (at(l, m, n, -0.4), sign * at(l, m, -n, 0.4));
                 assert!((a - b).abs() < 1e-14, "{l} {m} {n}: {a} {b}");
             }
