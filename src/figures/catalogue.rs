@@ -53,7 +53,7 @@ mod tests {
         for figure in all() {
             assert!(figure.caption.len() > 20 && figure.compare.len() > 20, "{}", figure.name);
             let known = |scene: &&str| SCENES.iter().any(|known| known.name == *scene);
-            assert!(figure.scenes.iter().all(|scene| known(scene)), "{}", figure.name);
+            assert!(figure.scenes.iter().all(known), "{}", figure.name);
         }
         let used: BTreeSet<&str> = all().flat_map(|figure| figure.scenes).copied().collect();
         assert_eq!(used, SCENES.iter().map(|scene| scene.name).collect());

@@ -95,8 +95,7 @@ pub fn run(args: PlanArgs) -> Result<()> {
 }
 
 fn is_of_picture(path: &Path) -> bool {
-    let text = std::fs::read_to_string(path).unwrap_or_default();
-    SceneKind::of(&text) == Some(SceneKind::Picture)
+    SceneKind::of_file(path) == Some(SceneKind::Picture)
 }
 
 /// Of a picture: how much of its light is scattered more often than once.

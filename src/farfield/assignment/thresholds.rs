@@ -213,7 +213,7 @@ pub struct Thresholds {
     pub pictures_by_rays_from: f64,
     /// Of Airy's theory of the bows of orders 2 and 3, across and along the scattering plane: a share of its largest
     /// amplitude, times the cube root of the size parameter, which the next terms fall with. Against Debye terms
-    /// (n = 1.333, x = 2000 to 100 000), phases included: 1.04 to 1.06 and 12 to 13.9, 1.15 to 1.34 and 7.9 to 9.4.
+    /// (n = 1.333, x = 2000 to 100 000), phases included: 1.04 to 1.06 and 12 to 14.5, 1.15 to 1.34 and 7.9 to 9.4.
     pub error_of_airy: [[f64; 2]; 2],
     /// Arguments of the Airy function between which that holds: from the dark side to the first minimum.
     pub airy_arguments: [f64; 2],
@@ -285,7 +285,7 @@ impl Thresholds {
         fall_of_powers: 0.85,
         error_of_glory: 0.2,
         pictures_by_rays_from: 300.0,
-        error_of_airy: [[1.1, 14.0], [1.4, 9.5]],
+        error_of_airy: [[1.1, 15.0], [1.4, 10.0]],
         airy_arguments: [-2.0, 2.3],
         error_of_reflection_by_patches: 0.07,
         error_of_patches: 0.3,

@@ -50,7 +50,7 @@ impl Integrand {
     }
 
     /// [`Self::sum`] at many angles, each with the reference path `W` there: all at once where that is faster, then
-    /// within 5e-9 of the sum of sizes.
+    /// within 1e-8 of the sum of sizes.
     pub(crate) fn sums(&self, angles: &[[f64; 2]], x: f64) -> Vec<Sums> {
         if !uneven_fourier::pays(self.impact.len(), angles.len()) {
             return angles.iter().map(|&[angle, path]| self.sum(angle, path, x)).collect();

@@ -3,6 +3,7 @@
 use super::drops::DropKeys;
 use super::error::BowError;
 use crate::scene::SceneKind;
+use crate::scene::read_limited;
 use serde::Deserialize;
 use std::path::Path;
 use std::str::FromStr;
@@ -124,8 +125,8 @@ impl BowScene {
     /// # Errors
     /// A file that cannot be read, or that is no scene of a picture.
     pub fn load(path: &Path) -> Result<Self, BowError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| BowError::Read { path: path.into(), source })?;
+        let text =
+            read_limited(path).map_err(|source| BowError::Read { path: path.into(), source })?;
         if SceneKind::of(&text) == Some(SceneKind::Table) {
             return Err(BowError::OfTable { path: path.into() });
         }

@@ -1,6 +1,8 @@
 //! What a scene is of: a table, or a picture. Who gives one where the other is meant is told so.
 
 use crate::scene::file::{KEYS, MODES};
+use crate::scene::read::read_limited;
+use std::path::Path;
 
 /// What a scene is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +17,11 @@ impl SceneKind {
     /// Sections of a picture's scene.
     pub const PICTURE_SECTIONS: [&str; 7] =
         ["camera", "drops", "filter", "layer", "rain", "sky", "sun"];
+
+    /// Of a file; nothing where it cannot be read.
+    pub fn of_file(path: &Path) -> Option<Self> {
+        Self::of(&read_limited(path).ok()?)
+    }
 
     /// By the sections that it has; nothing where they tell of neither kind, or of both.
     pub fn of(text: &str) -> Option<Self> {

@@ -8,6 +8,7 @@
 //! The first line that is no comment names the columns; they are parted by commas, semicolons or blanks.
 
 use super::kind;
+use std::io::Read;
 use std::path::Path;
 
 /// Most bytes of a file; distributions have some hundred rows.
@@ -32,7 +33,14 @@ impl Columns {
         if size > MOST_BYTES {
             return Err(wrong(format!("{size} bytes; at most {MOST_BYTES} are accepted")));
         }
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
+        // devices have no size
+        let mut text = String::new();
+        let opened = std::fs::File::open(path).map_err(|error| wrong(error.to_string()))?;
+        let read = opened.take(MOST_BYTES + 1).read_to_string(&mut text);
+        let read = read.map_err(|error| wrong(error.to_string()))?;
+        if read as u64 > MOST_BYTES {
+            return Err(wrong(format!("more than {MOST_BYTES} bytes")));
+        }
         Self::parse(&file, &text)
     }
 

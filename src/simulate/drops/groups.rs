@@ -1,8 +1,17 @@
 //! Drops whose orders are computed together: those of one radius and tilt.
 
-use super::steps::Part;
 use crate::population::{Radius, radii};
 use crate::size_distribution::SizeDistribution;
+
+/// A stretch of radii over which the shape changes smoothly, and an order on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    pub stretch: (f64, f64),
+    pub spheres: bool,
+    pub order: u32,
+    /// Even number of steps.
+    pub steps: usize,
+}
 
 /// A drop, and what each of its orders counts in the mean.
 #[derive(Clone, Debug, PartialEq)]

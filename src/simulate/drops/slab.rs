@@ -2,11 +2,11 @@
 
 use super::azimuths::Azimuths;
 use super::error::band_errors;
-use super::groups::groups;
+use super::groups::{Part, groups};
 use super::guided::DropGuides;
 use super::one_drop::Drop;
 use super::seen::Seen;
-use super::steps::{OF_DIFFERENCE, Part, Steps, add, sizes_of};
+use super::steps::{OF_DIFFERENCE, Steps, add, sizes_of};
 use crate::farfield::forward::penumbra_layout::near_axis;
 use crate::math::parallel::*;
 use crate::medium::Light;

@@ -6,7 +6,7 @@
 
 use super::azimuths::Azimuths;
 use super::error::band_errors;
-use super::groups::groups;
+use super::groups::{Part, groups};
 use super::one_drop::Drop;
 use super::seen::{Means, Seen};
 use crate::medium::{Light, MediumError};
@@ -34,16 +34,6 @@ const AZIMUTHS: [f64; 3] = [0.0, FRAC_PI_2, PI];
 /// Twice the radii halve the error (measured: 2.0 to 2.9 times, `validation/population.md`): what is left is
 /// that much of the difference.
 pub(super) const OF_DIFFERENCE: f64 = 0.5;
-
-/// A stretch of radii over which the shape changes smoothly, and an order on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
-    pub stretch: (f64, f64),
-    pub spheres: bool,
-    pub order: u32,
-    /// Even number of steps.
-    pub steps: usize,
-}
 
 /// How many radii stand for a distribution of sizes of drops, by order and stretch of radii.
 #[derive(Clone, Debug, PartialEq)]
