@@ -13,11 +13,11 @@ mod choice;
 mod contradictions;
 mod error;
 mod file;
+mod files;
 #[cfg(feature = "cli")]
 mod flags;
 mod grid;
 mod modes;
-mod named_files;
 mod orientation;
 mod particle;
 mod read;
@@ -35,14 +35,16 @@ pub use crate::math::bytes::human_bytes;
 pub(crate) use error::shown;
 pub use error::{Place, SceneError};
 pub use file::{AmountKeys, LightKeys, ModeKeys, ModelKeys, ParticleKeys, SceneFile, TableKeys};
+pub use files::named_files;
+#[cfg(feature = "hdf5")]
+pub(crate) use files::read_limited;
 pub use grid::{Grid, Range, Third};
 pub(crate) use modes::WATER_DENSITIES;
 pub use modes::{Amount, Mode};
-pub use named_files::named_files;
 pub use orientation::OrientationKey;
 pub use read::SceneText;
 #[cfg(feature = "hdf5")]
-pub(crate) use read::{line_at, read_limited};
+pub(crate) use read::line_at;
 pub use shipped::{SHIPPED, SceneKind, Shipped};
 pub use size::TableSize;
 pub use sizes::SizeKeys;

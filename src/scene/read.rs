@@ -2,14 +2,11 @@
 
 use super::error::{Place, SceneError, nearest};
 use super::file::{KEYS, MODES, ModeKeys, SceneFile};
+use super::files::read_limited;
 use super::shipped::SceneKind;
-use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use toml::de::DeTable;
-
-/// Scene files are a few hundred bytes; a larger one was not meant to be one.
-const MAX_BYTES: u64 = 4 << 20;
 
 /// A scene file that could be read, with its text for finding lines.
 #[derive(Clone, Debug)]
@@ -167,17 +164,6 @@ fn key_at(text: &str, byte: usize) -> Option<String> {
         }
     }
     None
-}
-
-/// The text of a file that should be a scene or a sweep, whatever it is.
-pub(crate) fn read_limited(path: &Path) -> std::io::Result<String> {
-    let mut text = String::new();
-    std::fs::File::open(path)?.take(MAX_BYTES + 1).read_to_string(&mut text)?;
-    if text.len() as u64 > MAX_BYTES {
-        let message = format!("larger than {} MiB, so not a scene file", MAX_BYTES >> 20);
-        return Err(std::io::Error::other(message));
-    }
-    Ok(text)
 }
 
 /// Line number, from 1, of a byte of the text.

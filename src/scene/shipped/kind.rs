@@ -1,7 +1,7 @@
 //! What a scene is of: a table, or a picture. Who gives one where the other is meant is told so.
 
 use crate::scene::file::{KEYS, MODES};
-use crate::scene::read::read_limited;
+use crate::scene::files::read_limited;
 use std::path::Path;
 
 /// What a scene is of.
