@@ -69,8 +69,18 @@ fn draw_title(area: &Area<'_>, table: &PhaseTable) -> Result<(), RenderError> {
     } else {
         format!(", sun at {}°", to_digits(header.sun_elevation.to_degrees(), 6))
     };
-    let radius = to_digits(header.radius * 1e3, 6);
-    let title = format!("Phase function of a {} of radius {radius} mm{sun}", header.shape);
+    let many = header.bodies.as_ref().filter(|bodies| bodies.effective_variance > 0.0);
+    let mm = |radius: f64| to_digits(radius * 1e3, 6);
+    let title = match many {
+        Some(sizes) => format!(
+            "Phase function: {}, many sizes of effective radius {} mm{sun}",
+            header.shape,
+            mm(sizes.effective_radius)
+        ),
+        None => {
+            format!("Phase function of a {} of radius {} mm{sun}", header.shape, mm(header.radius))
+        }
+    };
     area.draw(&Text::new(title, (20, 10), (FONT, 24).into_font().color(&BLACK)))?;
     let axis = &header.axes;
     let nm = |w: Option<&f64>| w.map_or(f64::NAN, |w| w * 1e9);
