@@ -4,8 +4,8 @@
 //! Lorenz–Mie for spheres, doubled for the secondary bow. "Sharp transitions" are taken where the
 //! number of rays of an order changes from one sample to the next: there a bow begins.
 
-/// Radius (mm) and standard deviation (degrees).
-const TABLE: [(f64, f64); 10] = [
+/// Radius (mm) and standard deviation (degrees), as printed.
+pub(crate) const TABLE: [(f64, f64); 10] = [
     (0.1, 0.70),
     (0.2, 0.45),
     (0.3, 0.30),

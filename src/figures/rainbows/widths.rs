@@ -1,6 +1,6 @@
 //! Table II: the width of the filter that stands for diffraction, against what would suit best.
 
-use crate::farfield::patches::gaussian_filter::standard_deviation;
+use crate::farfield::patches::gaussian_filter::{TABLE, standard_deviation};
 use crate::figures::figure::Figure;
 use crate::figures::papers;
 use crate::figures::plain::{BLACK, BLUE, GREEN, RED, by_factors, evenly, sheet};
@@ -21,19 +21,6 @@ pub(super) const TABLE_II: Figure = Figure {
     make,
 };
 
-/// Table II as printed: radius in mm, degrees.
-const PRINTED: [(f64, f64); 10] = [
-    (0.1, 0.70),
-    (0.2, 0.45),
-    (0.3, 0.30),
-    (0.4, 0.25),
-    (0.5, 0.22),
-    (0.6, 0.20),
-    (0.7, 0.18),
-    (0.8, 0.17),
-    (0.9, 0.16),
-    (1.0, 0.15),
-];
 /// Light of the paper's Fig. 9.
 const WAVELENGTH: f64 = 650e-9;
 const INDEX: f64 = 1.3314;
@@ -91,12 +78,12 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
         bow(mm).map_or(f64::NAN, |bow| ((bow.maximum() - bow.angle()) / 1.018_793).to_degrees())
     };
     let mut numbers = Vec::new();
-    for (mm, printed) in PRINTED {
+    for (mm, printed) in TABLE {
         let name = format!("standard deviation, {mm} mm");
         numbers.push(Number::beside(name, "°", printed, best * scale(mm)));
     }
-    let filter = PRINTED.map(|(mm, _)| standard_deviation(mm * 1e-3).to_degrees());
-    let off = filter.iter().zip(PRINTED).map(|(ours, (_, paper))| (ours - paper).abs());
+    let filter = TABLE.map(|(mm, _)| standard_deviation(mm * 1e-3).to_degrees());
+    let off = filter.iter().zip(TABLE).map(|(ours, (_, paper))| (ours - paper).abs());
     let worst = off.fold(0.0, f64::max);
     numbers.push(Number::beside(
         "largest difference of the engine's filter from the table",
@@ -115,7 +102,7 @@ fn make(_: &Workshop) -> Result<Made, FigureError> {
             y: Axis::logarithmic("standard deviation (°)", 0.1, 1.0),
             curves: vec![
                 Curve::new("nearest to Airy's theory", BLUE, law),
-                Curve::new("Table II", RED, PRINTED).dots(),
+                Curve::new("Table II", RED, TABLE).dots(),
             ],
             ..Chart::default()
         }),
